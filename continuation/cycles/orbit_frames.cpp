@@ -17,21 +17,21 @@ Vector phase_weights(const OrbitMesh& mesh, const Matrix& orbit, const Vector& s
   const Index m = rule.degree();
   const Index n = orbit.rows();
   Vector weights = Vector::Zero(orbit.size());
-  Vector change(n);  // over the interval
-  const Vector in_units = scale.cwiseInverse();
+  const double* const derivatives = rule.derivatives().data();
+  const double* const shares = rule.values().data();
   double square = 0;
   for (Index j = 0; j < mesh.intervals(); ++j) {
     const double* const values = orbit.col(j * m).data();
-    for (Index i = 0; i < m; ++i) {
-      change.setZero();
-      for (Index k = 0; k <= m; ++k) {
-        for (Index r = 0; r < n; ++r) change(r) += values[k * n + r] * rule.derivatives()(i, k);
-      }
-      change.array() *= in_units.array();
-      square += rule.weights()(i) * change.squaredNorm() / mesh.length(j);
-      change.array() *= rule.weights()(i) * in_units.array();
-      for (Index k = 0; k <= m; ++k) {
-        for (Index r = 0; r < n; ++r) weights((j * m + k) * n + r) += change(r) * rule.values()(i, k);
+    double* const own = weights.data() + j * m * n;
+    for (Index r = 0; r < n; ++r) {
+      const double unit = 1 / scale(r);
+      for (Index i = 0; i < m; ++i) {
+        double change = 0;  // over the interval
+        for (Index k = 0; k <= m; ++k) change += values[k * n + r] * derivatives[k * m + i];
+        change *= unit;
+        square += rule.weights()(i) * change * change / mesh.length(j);
+        change *= rule.weights()(i) * unit;
+        for (Index k = 0; k <= m; ++k) own[k * n + r] += change * shares[k * m + i];
       }
     }
   }

@@ -3,59 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arcslip/continuation/linear/blocks_side_by_side.hpp"
+#include "orbit_scratch.hpp"
 
 namespace arcslip::continuation {
-/// What is found of the field at the points of some intervals, side by side.
-struct OrbitProblem::Scratch {
-  Scratch(const OrbitProblem& problem, Index parameters) {
-    const Index groups =
-        problem.field().sparse() ? problem.intervals() : 1 + problem.intervals() * problem.degree() / most;
-    together = (problem.intervals() + groups - 1) / groups;
-    const Index n = problem.field().size();
-    const Index points = together * problem.degree();
-    const CollocationRule& rule = problem.frames_.front()->mesh.rule();
-    values = rule.values().transpose();
-    derivatives = rule.derivatives().transpose();
-    times.resize(points);
-    for (Matrix* one : {&places, &changes, &velocities}) one->resize(n, points);
-    by_parameters.resize(n, parameters * points);
-    block.resize(problem.block_.nonZeros());
-    if (problem.field().is_periodic()) by_time.resize(n, points);
-    if (problem.field().sparse()) {
-      sparse_by_unknowns.assign(static_cast<std::size_t>(points), problem.block_);
-    } else {
-      by_unknowns.resize(n, n * points);
-    }
-  }
+namespace {
 
-  /// df/du of one, the entries of the block.
-  const double* entries(Index point) const {
-    if (!sparse_by_unknowns.empty()) return sparse_by_unknowns[static_cast<std::size_t>(point)].valuePtr();
-    return by_unknowns.data() + point * by_unknowns.rows() * by_unknowns.rows();
-  }
-  auto by_unknowns_at(Index point) const {
-    return by_unknowns.middleCols(point * by_unknowns.rows(), by_unknowns.rows());
-  }
-  auto by_parameters_at(Index point) const {
-    const Index count = by_parameters.cols() / times.size();
-    return by_parameters.middleCols(point * count, count);
-  }
+/// out = a b, entry by entry.
+inline void multiply(const double* __restrict a, const double* __restrict b, Index count,
+                     double* __restrict out) {
+  for (Index i = 0; i < count; ++i) out[i] = a[i] * b[i];
+}
 
-  Matrix values;                     // of the rule, those of a point side by side, and
-  Matrix derivatives;                // these
-  static constexpr Index most = 64;  // points: few enough to stay near
-  Index together = 1;                // intervals
-  Vector times;
-  Matrix places;
-  Matrix velocities;  // f
-  Matrix changes;     // sum_k D_ik u_k
-  Matrix by_unknowns;
-  Matrix by_parameters;
-  Matrix by_time;
-  Vector block;                                  // of one point, in the units of the equations
-  std::vector<SparseMatrix> sparse_by_unknowns;  // of a sparse field, in place of the others
-};
+}  // namespace
 
 OrbitProblem::OrbitProblem(std::shared_ptr<const Field> field, bool has_duration)
     : field_(std::move(field)), has_duration_(has_duration) {}
@@ -159,7 +118,6 @@ void OrbitProblem::fill_interval(const OrbitFrame& frame, double duration, Index
   const Index n = field_->size();
   const double h = frame.mesh.length(interval);
   const double* const in_units = frame.in_units.data();
-  const int* const rows = block_.innerIndexPtr();
   for (Index i = 0; i < degree(); ++i) {
     const Index first = (interval * degree() + i + 1) * n;
     const double* const velocity = scratch.velocities.col(from + i).data();
@@ -176,40 +134,50 @@ void OrbitProblem::fill_interval(const OrbitFrame& frame, double duration, Index
         for (Index r = 0; r < n; ++r) column[r] = -h * entries[r] * in_units[r];
       }
     }
-    if (out.sparse_jacobian == nullptr) continue;
-    const double* const entries = scratch.entries(from + i);
-    for (Index entry = 0; entry < scratch.block.size(); ++entry)
-      scratch.block(entry) = -h * duration * entries[entry] * in_units[rows[entry]];
-    fill_blocks(frame, interval, i, scratch.block.data(), *out.sparse_jacobian);
-    if (!has_duration_) continue;
+    if (out.sparse_jacobian == nullptr || !has_duration_) continue;
     double* const block =
         out.sparse_jacobian->valuePtr() + out.sparse_jacobian->outerIndexPtr()[size() - 1] + first - n;
     for (Index r = 0; r < n; ++r) block[r] = -h * velocity[r] * in_units[r];
   }
+  if (out.sparse_jacobian != nullptr)
+    fill_blocks(frame, -h * duration, interval, from, scratch, *out.sparse_jacobian);
 }
 
-/// The rows of point i: with the diagonal, multiples of one block.
-void OrbitProblem::fill_blocks(const OrbitFrame& frame, Index interval, Index i, const double* of_point,
-                               SparseMatrix& out) const {
+/// Each node's columns hold multiples of all points' blocks, one below the other, and the diagonal's of
+/// these.
+void OrbitProblem::fill_blocks(const OrbitFrame& frame, double factor, Index interval, Index from,
+                               Scratch& scratch, SparseMatrix& out) const {
   const Index m = degree();
   const Index n = field_->size();
   const CollocationRule& rule = frame.mesh.rule();
-  const double* const in_units = frame.in_units.data();
   const int* const begins = block_.outerIndexPtr();
+  const int* const rows = block_.innerIndexPtr();
+  double* to = scratch.blocks.data();
+  for (Index c = 0; c < n; ++c) {
+    for (Index i = 0; i < m; ++i) {
+      const double* const entries = scratch.entries(from + i);
+      for (int entry = begins[c]; entry < begins[c + 1]; ++entry)
+        *to++ = factor * entries[entry] * frame.in_units(rows[entry]);
+    }
+  }
   for (Index k = 0; k <= m; ++k) {
     const Index node = interval * m + k;
     const bool is_end = node == 0 || node + 1 == nodes();
-    const Index blocks = i + (k == 0 && interval > 0 ? m : 0);  // those of the interval before come first
-    const double value = rule.values()(i, k);
-    const double derivative = rule.derivatives()(i, k);
+    const bool is_second = k == 0 && interval > 0;  // those of the interval before come first
     const int* const starts = out.outerIndexPtr() + node * n;
     double* const begin = out.valuePtr() + (is_end ? end_entries() : 0);
+    const double* const slopes = rule.derivatives().col(k).data();
+    const double* blocks = scratch.blocks.data();
+    const double* weights = scratch.weights.col(k).data();
     for (Index c = 0; c < n; ++c) {
       const Index count = begins[c + 1] - begins[c];
-      double* const block = begin + starts[c] + blocks * count;
-      const double* const entries = of_point + begins[c];
-      for (Index entry = 0; entry < count; ++entry) block[entry] = value * entries[entry];
-      block[diagonal_[static_cast<std::size_t>(c)]] += derivative * in_units[c];
+      double* const column = begin + starts[c] + (is_second ? m * count : 0);
+      multiply(weights, blocks, m * count, column);
+      const double unit = frame.in_units(c);
+      double* diagonal = column + diagonal_[static_cast<std::size_t>(c)];
+      for (Index i = 0; i < m; ++i, diagonal += count) *diagonal += slopes[i] * unit;
+      blocks += m * count;
+      weights += m * count;
     }
   }
 }
@@ -317,49 +285,6 @@ void OrbitProblem::scale(const Vector& u, const Vector& p, Vector& unknowns, Vec
   field_->scale(orbit(u).cwiseAbs().rowwise().maxCoeff(), p, sizes, parameters);
   unknowns.head(n * nodes()).reshaped(n, nodes()).colwise() = sizes;
   if (has_duration_) unknowns(size() - 1) = std::abs(duration(u, p));
-}
-
-bool OrbitProblem::transfers(const Vector& u, const Vector& p, const Regime& regime,
-                             std::vector<Matrix>& out) const {
-  const OrbitFrame& at = frame(regime);
-  const CollocationRule& rule = at.mesh.rule();
-  const Index n = field_->size();
-  const Index m = degree();
-  const double length = duration(u, p);
-  Scratch scratch(*this, p.size());
-  BlocksSideBySide blocks(n * m, n * (m + 1));  // of the inner nodes, then of the right end and of the left
-  out.assign(static_cast<std::size_t>(intervals()), Matrix(n, n));
-  for (Index first = 0; first < intervals(); first += scratch.together) {
-    if (!at_points(at, u, p, length, first, true, scratch)) return false;
-    const Index end = std::min(first + scratch.together, intervals());
-    for (Index j = first; j < end; j += BlocksSideBySide::lanes) {
-      const auto interval = [&](Index lane) { return std::min(j + lane, end - 1); };
-      for (Index lane = 0; lane < BlocksSideBySide::lanes; ++lane) {
-        const double h = at.mesh.length(interval(lane));
-        for (Index i = 0; i < m; ++i) {
-          const double* const by_unknowns = scratch.entries((interval(lane) - first) * m + i);
-          for (Index k = 0; k <= m; ++k) {
-            const double weight = -h * length * rule.values()(i, k);
-            for (Index c = 0; c < n; ++c) {
-              double* const column = blocks.at(i * n, (k + m) % (m + 1) * n + c) + lane;
-              for (Index r = 0; r < n; ++r)
-                column[r * BlocksSideBySide::lanes] = weight * by_unknowns[c * n + r];
-              column[c * BlocksSideBySide::lanes] += rule.derivatives()(i, k);
-            }
-          }
-        }
-      }
-      blocks.eliminate();
-      blocks.solve_last(n);
-      for (Index lane = 0; lane < BlocksSideBySide::lanes; ++lane) {
-        Matrix& transfer = out[static_cast<std::size_t>(interval(lane))];
-        for (Index c = 0; c < n; ++c) {
-          for (Index r = 0; r < n; ++r) transfer(r, c) = -blocks.at(n * (m - 1) + r, n * m + c)[lane];
-        }
-      }
-    }
-  }
-  return true;
 }
 
 }  // namespace arcslip::continuation

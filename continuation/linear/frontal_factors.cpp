@@ -10,10 +10,7 @@
 namespace arcslip::continuation {
 namespace {
 
-// Of entries of about 1, in the elimination.
-constexpr double worst_growth = 1e6;   // refinement gives back these digits
-constexpr double little_growth = 1e3;  // they are not missed
-constexpr int panel = 4;               // columns that are eliminated from the others at a time
+constexpr int panel = 4;  // columns that are eliminated from the others at a time
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 

@@ -4,8 +4,14 @@
 #include <limits>
 
 #include "arcslip/continuation/linear/front_plan.hpp"
+#include "arcslip/continuation/problem/evaluation.hpp"
 
 namespace arcslip::continuation {
+namespace {
+
+constexpr double shortness = 0.1;  // of a correction by factors from elsewhere, to the last one
+
+}  // namespace
 
 Work operator+(const Work& a, const Work& b) {
   return {a.evaluations + b.evaluations, a.factorizations + b.factorizations, a.iterations + b.iterations,
@@ -81,9 +87,14 @@ bool Corrector::evaluate(CurvePoint& point) {
   return true;
 }
 
-bool Corrector::factor(const Vector& scale, const Vector& normal) {
+bool Corrector::factor(const CurvePoint& point, const Vector& scale, const Vector& normal) {
   ++work_.factorizations;
-  if (takes_lengths_out_) factored_scale_ = scale;
+  has_direction_ = false;
+  if (linearization_.sparse()) {
+    factored_scale_ = scale;
+    factored_unknowns_ = point.unknowns;
+    factored_regime_ = point.regime;
+  }
   linearization_.fill(*solver_, scale);
   solver_->columns() = linearization_.parameter_jacobian().col(parameter_) * scale(size_);
   solver_->rows() = normal.head(size_).transpose();
@@ -96,7 +107,8 @@ bool Corrector::solve_direction() {
   direction_.setZero();
   direction_(size_) = 1;
   solver_->solve(direction_);
-  return direction_.allFinite();
+  has_direction_ = direction_.allFinite();
+  return has_direction_;
 }
 
 double Corrector::rounding_level(const CurvePoint& point) {
@@ -118,6 +130,41 @@ double Corrector::solve_correction(double change) {
   return correction_.norm();
 }
 
+bool Corrector::has_factors_at(const CurvePoint& origin, double distance) {
+  constexpr double near = 0.01;  // of the distance
+  if (!has_direction_ || factored_unknowns_.size() == 0 || factored_regime_ != origin.regime) return false;
+  before_ = (factored_unknowns_ - origin.unknowns).cwiseQuotient(origin.scale.head(size_));
+  return before_.norm() < near * distance;
+}
+
+/// By the factors at the origin, which are at hand, as far as corrections shrink fast, if they are so short
+/// that Newton's first one would be its last: whether they are.
+bool Corrector::approach(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance) {
+  constexpr int most = 3;
+  double limit = shortness * std::sqrt(options_.tolerance);
+  double shrinks = shortness;
+  for (int i = 0; i < most; ++i) {
+    difference(point, origin, correction_);
+    const double gap = distance - normal.dot(correction_);
+    if (!continuation::evaluate(problem_, point.unknowns, point.parameters, point.regime,
+                                {.residual = &before_}))
+      return i > 0;
+    correction_ << -before_, 0;
+    solver_->solve(correction_);
+    correction_.array() *= factored_scale_.array() / origin.scale.array();
+    const auto direction = direction_.cwiseProduct(factored_scale_).cwiseQuotient(origin.scale);
+    // The factors' own condition is another one, by a multiple of the direction.
+    correction_ += (gap - normal.dot(correction_)) / normal.dot(direction) * direction;
+    const double length = correction_.norm();
+    if (!(length < limit)) return i > 0;
+    add_correction(point, origin);
+    if (i > 0) shrinks = length * shortness / limit;
+    if (shrinks * length <= 0.5 * options_.tolerance) break;
+    limit = shortness * length;
+  }
+  return true;
+}
+
 Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const Vector& normal,
                               double distance, bool to_rounding) {
   contraction_ = 0;
@@ -130,12 +177,16 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     difference(point, origin, correction_);
     return distance - normal.dot(correction_);
   };
+  const bool approaches = begins_near_ && !to_rounding && has_factors_at(origin, distance);
+  if (approaches) begins_near_ = approach(point, origin, normal, distance);
   while (true) {
     if (!evaluate(point)) return Correction::cannot_evaluate;
-    if (!factor(origin.scale, normal)) return Correction::singular;
+    if (!factor(point, origin.scale, normal)) return Correction::singular;
     const bool last = point.iterations >= options_.max_iterations;
     const bool stagnant = point.residual >= 0.5 * last_residual;
     double length = solve_correction(gap());
+    if (!approaches && point.iterations == 0)
+      begins_near_ = length < shortness * std::sqrt(options_.tolerance);
     // The correction that is left, too, since the residual is in units of the problem's.
     const bool good = point.residual <= tolerance_ && (stagnant || length <= options_.tolerance);
     const bool rounded = !good && (stagnant || (!to_rounding && length <= options_.tolerance)) &&
@@ -147,7 +198,7 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     if (last) return Correction::too_many_iterations;
     held = held || rounded;  // keep the parameter, whose rounding is what is left, and correct the unknowns
     if (held) {
-      if (!factor(origin.scale, parameter_normal_)) return Correction::singular;
+      if (!factor(point, origin.scale, parameter_normal_)) return Correction::singular;
       length = solve_correction(gap());
     }
     if (!std::isfinite(length)) return Correction::singular;
@@ -177,7 +228,7 @@ void Corrector::close(CurvePoint& point, const CurvePoint& origin, const Vector&
   constexpr int most = 5;          // corrections, of which each is to be much shorter than the last
   constexpr double shrinks = 0.2;  // beside a fold they halve at best
   const auto solve = [&] {
-    const bool solved = evaluate(point) && factor(origin.scale, normal) && solve_direction() &&
+    const bool solved = evaluate(point) && factor(point, origin.scale, normal) && solve_direction() &&
                         std::isfinite(solve_correction(0));
     return solved ? turn_to_parameter() : std::numeric_limits<double>::infinity();
   };
@@ -200,22 +251,26 @@ void Corrector::close(CurvePoint& point, const CurvePoint& origin, const Vector&
 Correction Corrector::correct_once(CurvePoint& point, const CurvePoint& origin, const Vector& normal,
                                    double change) {
   if (!evaluate(point)) return Correction::cannot_evaluate;
-  if (!factor(origin.scale, normal)) return Correction::singular;
+  if (!factor(point, origin.scale, normal)) return Correction::singular;
   if (!std::isfinite(solve_correction(change))) return Correction::singular;
   apply(point, origin);
   return Correction::converged;
 }
 
-void Corrector::apply(CurvePoint& point, const CurvePoint& origin) {
+void Corrector::add_correction(CurvePoint& point, const CurvePoint& origin) const {
   point.unknowns += origin.scale.head(size_).cwiseProduct(correction_.head(size_));
   point.parameters(parameter_) += origin.scale(size_) * correction_(size_);
+}
+
+void Corrector::apply(CurvePoint& point, const CurvePoint& origin) {
+  add_correction(point, origin);
   ++point.iterations;
   ++work_.iterations;
 }
 
 Correction Corrector::linearise(CurvePoint& point, const Vector& normal) {
   if (!evaluate(point)) return Correction::cannot_evaluate;
-  if (!factor(point.scale, normal) || !solve_direction()) return Correction::singular;
+  if (!factor(point, point.scale, normal) || !solve_direction()) return Correction::singular;
   return Correction::converged;
 }
 

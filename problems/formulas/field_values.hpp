@@ -39,8 +39,11 @@ inline bool evaluate_columns(const Tape& tape, const Vector* times, const Matrix
   if (times != nullptr) at.row(0) = times->transpose();
   at.middleRows(first, n) = u;
   at.bottomRows(p.size()).colwise() = p;
-  Matrix gradients(at.rows(), n * u.cols());
-  if (!tape.evaluate(at.data(), u.cols(), out.velocity->data(), gradients.data())) return false;
+  const bool differentiated =
+      out.by_unknowns != nullptr || out.by_parameters != nullptr || out.by_time != nullptr;
+  Matrix gradients(at.rows(), differentiated ? n * u.cols() : 0);
+  if (!tape.evaluate(at.data(), u.cols(), out.velocity->data(), differentiated ? gradients.data() : nullptr))
+    return false;
   /// Those by so many variables from one on.
   const auto spread = [&](Matrix* by, Index from, Index count) {
     if (by == nullptr) return;

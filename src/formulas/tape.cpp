@@ -81,6 +81,11 @@ class Lanes {
       std::copy_n(a, lanes, right);
       return;
     }
+    if (one.kind == Operator::add || one.kind == Operator::subtract) {
+      std::fill_n(left, lanes, 1.0);
+      std::fill_n(right, lanes, one.kind == Operator::add ? 1.0 : -1.0);
+      return;
+    }
     for (std::size_t k = 0; k < lanes; ++k) {
       const Slopes slopes = slopes_of(one, a[k], b[k], (*this)[place][k], false);
       left[k] = slopes.left;
@@ -163,6 +168,7 @@ bool Tape::evaluate_lanes(const double* x, double* values, double* gradients) co
     for (std::size_t k = 0; k < lanes; ++k) values[k * results + r] = at[results_[r]][k];
   }
   if (!are_finite(values, lanes * results)) return false;
+  if (gradients == nullptr) return true;
   const Lanes<lanes> left(scratch.take(lanes * count));
   const Lanes<lanes> right(scratch.take(lanes * count));
   for (std::size_t i = 0; i < count; ++i) at.set_slopes(first_ + i, operations_[i], left[i], right[i]);
@@ -198,7 +204,7 @@ bool Tape::evaluate(const double* x, Index points, double* values, double* gradi
   for (Index k = 0; k < points;) {
     const bool many = k + lanes <= points;
     double* const value = values + k * size;
-    double* const gradient = gradients + k * size * variables_;
+    double* const gradient = gradients == nullptr ? nullptr : gradients + k * size * variables_;
     if (!(many ? evaluate_lanes<lanes>(x + k * variables_, value, gradient)
                : evaluate_lanes<1>(x + k * variables_, value, gradient)))
       return false;

@@ -12,7 +12,7 @@ TEST_CASE("Matrices eliminated side by side have the solutions that each has alo
   constexpr Index behind = 3;
   constexpr Index wanted = 2;
   std::srand(3);
-  BlocksSideBySide blocks(n, n + behind);
+  BlocksSideBySide blocks(n, n + behind, n);
   std::vector<Matrix> all;
   for (Index l = 0; l < BlocksSideBySide::lanes; ++l) {
     Matrix one = Matrix::Random(n, n + behind);

@@ -130,6 +130,25 @@ TEST_CASE("Cycles of a Hopf normal form are its circles", "[cycles]") {
   }
 }
 
+TEST_CASE("Points of short steps take little more than one factorisation each", "[cycles]") {
+  const OrbitMesh mesh(CollocationRule(4), 30);
+  const CycleStart start = cycle_from_orbit(std::make_shared<EquilibriumField>(van_der_pol()), mesh,
+                                            circle(mesh, 2, -2), 6.6, Vector::Constant(1, 1));
+  TraceOptions options = over("mu", 0.5, 2);
+  options.max_step = 0.001;
+  options.max_points = 60;
+  const CycleBranch all = trace_cycles(start, options, {});
+  const Branch& branch = all.branch;
+  REQUIRE(branch.points.size() >= 60);
+  CHECK(branch.work.factorizations < 5 * std::ssize(branch.points) / 4);
+  for (std::size_t i = 0; i < branch.points.size(); i += 7) {
+    const BranchPoint& point = branch.points[i];
+    const Solution solution = solve(*all.problem, {point.unknowns, point.parameters, point.regime});
+    REQUIRE(solution.outcome == Correction::converged);
+    CHECK((solution.unknowns - point.unknowns).lpNorm<Eigen::Infinity>() < 1e-9);
+  }
+}
+
 TEST_CASE("Collocation converges at twice its degree at the ends of intervals", "[cycles]") {
   // 17 digits by a Taylor series of order 30 with 40 digits
   const double exact = period_of_van_der_pol(7, 64);

@@ -171,6 +171,9 @@ TEST_CASE("Several points at once have the values and gradients of one by one, o
     CHECK(value == values.col(k));
     CHECK(gradient == gradients.col(k));
   }
+  Matrix alone(2, points);
+  REQUIRE(tape.evaluate(x.data(), points, alone.data(), nullptr));
+  CHECK(alone == values);
   for (const Index bad : {0, 12, 18}) {
     Matrix there = x;
     there(1, bad) = -1;  // no y^1.5

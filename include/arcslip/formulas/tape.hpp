@@ -73,7 +73,8 @@ class Tape {
   /// Also their gradients, row by row: results x variables.
   [[nodiscard]] bool evaluate(const double* x, double* values, double* gradients) const;
 
-  /// The same at several points, one after the other: as many x, values and gradients.
+  /// The same at several points, one after the other: as many x, values and gradients, or
+  /// none of these where they are null.
   [[nodiscard]] bool evaluate(const double* x, Index points, double* values, double* gradients) const;
 
   /// w^T d/dh [dF/dx](x + h dx) at h = 0: one entry for each variable. False where one is not finite.

@@ -177,7 +177,7 @@ class OrbitProblem : public Problem {
   void change_with_parameters(double duration, const Vector& p, Scratch& scratch) const;
   void fill_interval(const OrbitFrame& frame, double duration, Index interval, Index from, Scratch& scratch,
                      const Evaluation& out) const;
-  void fill_blocks(const OrbitFrame& frame, Index interval, Index i, const double* of_point,
+  void fill_blocks(const OrbitFrame& frame, double factor, Index interval, Index from, Scratch& scratch,
                    SparseMatrix& out) const;
   [[nodiscard]] bool fill_conditions(const OrbitFrame& frame, const Vector& u, const Vector& p,
                                      const Evaluation& out) const;

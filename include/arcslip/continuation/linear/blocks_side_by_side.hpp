@@ -11,80 +11,144 @@
 
 namespace arcslip::continuation {
 
-/// Their entries side by side, column by column. Pivots are the largest entries of columns, each matrix's
-/// own.
+/// Their entries side by side, column by column. The first columns, `pivots` of them, are eliminated from all
+/// others, by rows which stand before the last `staying` ones. Pivots are the largest entries of columns,
+/// each matrix's own. Vectors have their entries side by side as well.
 class BlocksSideBySide {
  public:
   static constexpr Index lanes = 4;
 
-  /// At least as many columns as rows.
-  BlocksSideBySide(Index rows, Index columns)
-      : rows_(rows), columns_(columns), values_(static_cast<std::size_t>(rows * columns * lanes)) {}
+  /// pivots <= rows - staying, pivots <= columns.
+  BlocksSideBySide(Index rows, Index columns, Index pivots, Index staying = 0)
+      : rows_(rows),
+        columns_(columns),
+        pivots_(pivots),
+        staying_(staying),
+        values_(static_cast<std::size_t>(rows * columns * lanes)),
+        exchanged_(static_cast<std::size_t>(pivots * lanes)) {}
 
   /// An entry of the first one, before that of the others.
   double* at(Index row, Index column) { return values_.data() + (column * rows_ + row) * lanes; }
+  const double* at(Index row, Index column) const { return values_.data() + (column * rows_ + row) * lanes; }
 
-  /// The first columns, as many as there are rows, from those behind them.
-  void eliminate() {
-    double inverse[lanes];
-    double factor[lanes];
-    for (Index k = 0; k < rows_; ++k) {
-      exchange(k);
-      const double* const column = at(k, k);
-      for (Index l = 0; l < lanes; ++l) inverse[l] = 1 / column[l];
-      for (Index j = k + 1; j < columns_; ++j) {
-        double* __restrict const other = at(k, j);
-        for (Index l = 0; l < lanes; ++l) factor[l] = other[l] * inverse[l];
-        const double* __restrict const below = column;
-        for (Index i = 1; i < rows_ - k; ++i) {
-          for (Index l = 0; l < lanes; ++l) other[i * lanes + l] -= factor[l] * below[i * lanes + l];
-        }
-      }
-    }
-  }
+  /// Leaves multiples of the pivots' columns below these, and in the rows of pivots and behind the columns
+  /// what the elimination has made.
+  void eliminate();
 
   /// Then the last `count` unknowns by the right-hand sides in the columns behind, in their place.
   void solve_last(Index count) {
-    for (Index j = rows_; j < columns_; ++j) {
-      for (Index i = rows_; i-- > rows_ - count;) {
+    for (Index j = pivots_; j < columns_; ++j) {
+      for (Index i = pivots_; i-- > pivots_ - count;) {
         double* const own = at(i, j);
         const double* const pivot = at(i, i);
         for (Index l = 0; l < lanes; ++l) own[l] /= pivot[l];
-        for (Index r = rows_ - count; r < i; ++r) {
-          double* const other = at(r, j);
-          const double* const entry = at(r, i);
-          for (Index l = 0; l < lanes; ++l) other[l] -= entry[l] * own[l];
-        }
+        const Index above = i - (pivots_ - count);
+        subtract(above, at(i - above, j), at(i - above, i), own);
       }
     }
   }
 
- private:
-  /// The row of each matrix that is to give pivot k comes there.
-  void exchange(Index k) {
-    double largest[lanes];
-    double row[lanes];
-    const double* entry = at(k, k);
-    for (Index l = 0; l < lanes; ++l) largest[l] = std::abs(entry[l]);
-    std::fill_n(row, lanes, static_cast<double>(k));
-    for (Index i = k + 1; i < rows_; ++i) {
-      entry += lanes;
-      for (Index l = 0; l < lanes; ++l) {
-        const double size = std::abs(entry[l]);
-        row[l] = size > largest[l] ? static_cast<double>(i) : row[l];
-        largest[l] = size > largest[l] ? size : largest[l];
+  /// The same elimination in a vector of all rows.
+  void forward(double* y) const {
+    double factor[lanes];
+    for (Index k = 0; k < pivots_; ++k) {
+      exchange(k, y);
+      double* const own = y + k * lanes;
+      const double* const column = at(k, k);
+      for (Index l = 0; l < lanes; ++l) factor[l] = own[l] / column[l];
+      subtract(rows_ - k - 1, own + lanes, column + lanes, factor);
+    }
+  }
+
+  /// Its first entries, as many as there are pivots, become the unknowns, where the others are `behind`.
+  void back(double* y, const double* behind) const {
+    for (Index j = pivots_; j < columns_; ++j, behind += lanes) subtract(pivots_, y, at(0, j), behind);
+    for (Index k = pivots_; k-- > 0;) {
+      double* const own = y + k * lanes;
+      for (Index l = 0; l < lanes; ++l) own[l] /= at(k, k)[l];
+      subtract(k, y, at(0, k), own);
+    }
+  }
+
+  /// Of the transposed matrices: the first entries become those of the rows of pivots, which are taken out of
+  /// the entries `behind`.
+  void forward_transposed(double* y, double* behind) const {
+    for (Index k = 0; k < pivots_; ++k) {
+      double* const own = y + k * lanes;
+      subtract_products(k, own, at(0, k), y);
+      for (Index l = 0; l < lanes; ++l) own[l] /= at(k, k)[l];
+    }
+    for (Index j = pivots_; j < columns_; ++j, behind += lanes)
+      subtract_products(pivots_, behind, at(0, j), y);
+  }
+
+  /// Then with those of the other rows behind these: all, in the rows' order.
+  void back_transposed(double* y) const {
+    for (Index k = pivots_; k-- > 0;) {
+      double sum[lanes] = {};
+      subtract_products(rows_ - k - 1, sum, at(k, k) + lanes, y + (k + 1) * lanes);
+      for (Index l = 0; l < lanes; ++l) y[k * lanes + l] += sum[l] / at(k, k)[l];
+      exchange(k, y);
+    }
+  }
+
+  /// Of one matrix: of its pivots and of the exchanges of rows.
+  double sign(Index lane) const {
+    double sign = 1;
+    for (Index k = 0; k < pivots_; ++k) {
+      const bool stays = exchanged_[static_cast<std::size_t>(k * lanes + lane)] == k;
+      if (stays != (at(k, k)[lane] > 0)) sign = -sign;
+    }
+    return sign;
+  }
+
+  /// The largest entry that the elimination has left in the rows of pivots.
+  double largest() const {
+    double largest[lanes] = {};
+    for (Index j = 0; j < columns_; ++j) {
+      const Index end = std::min(j, pivots_);
+      for (Index i = 0; i < end; ++i) {
+        for (Index l = 0; l < lanes; ++l) largest[l] = std::max(largest[l], std::abs(at(i, j)[l]));
       }
     }
+    return *std::max_element(largest, largest + lanes);
+  }
+
+ private:
+  void exchange(Index k);
+
+  /// x_i <- x_i - a_i b
+  static void subtract(Index count, double* __restrict x, const double* __restrict a, const double* b) {
+    double factor[lanes];
+    for (Index l = 0; l < lanes; ++l) factor[l] = b[l];
+    for (Index i = 0; i < count; ++i) {
+      for (Index l = 0; l < lanes; ++l) x[i * lanes + l] -= a[i * lanes + l] * factor[l];
+    }
+  }
+
+  /// x <- x - sum_i a_i b_i
+  static void subtract_products(Index count, double* x, const double* a, const double* b) {
+    double rest[lanes];
+    for (Index l = 0; l < lanes; ++l) rest[l] = x[l];
+    for (Index i = 0; i < count; ++i) {
+      for (Index l = 0; l < lanes; ++l) rest[l] -= a[i * lanes + l] * b[i * lanes + l];
+    }
+    for (Index l = 0; l < lanes; ++l) x[l] = rest[l];
+  }
+
+  void exchange(Index k, double* y) const {
     for (Index l = 0; l < lanes; ++l) {
-      const auto best = static_cast<Index>(row[l]);
-      if (best == k) continue;
-      for (Index j = k; j < columns_; ++j) std::swap(at(k, j)[l], at(best, j)[l]);
+      const Index best = exchanged_[static_cast<std::size_t>(k * lanes + l)];
+      std::swap(y[k * lanes + l], y[best * lanes + l]);
     }
   }
 
   Index rows_;
   Index columns_;
+  Index pivots_;
+  Index staying_;
   std::vector<double> values_;
+  std::vector<Index> exchanged_;  // the row that came to each pivot's place
 };
 
 }  // namespace arcslip::continuation

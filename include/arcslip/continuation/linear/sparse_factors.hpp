@@ -10,6 +10,10 @@
 
 namespace arcslip::continuation {
 
+// Of entries of about 1, in the elimination.
+constexpr double worst_growth = 1e6;   ///< refinement gives back these digits
+constexpr double little_growth = 1e3;  ///< they are not missed
+
 /// Factors of square matrices of one pattern, whose entries are about 1 in each row but for the borders' last
 /// rows, which are kept for the end.
 class SparseFactors {
@@ -43,5 +47,10 @@ std::unique_ptr<SparseFactors> make_klu_factors(SparseMatrix& pattern, std::vect
 /// goes into the next one, so that growth along the chain is met by pivots of both. Null where it would cost
 /// more than `most` multiplications.
 std::unique_ptr<SparseFactors> make_frontal_factors(const SparseMatrix& pattern, Index borders, double most);
+
+/// By blocks of rows that have the same columns, as those of one interval of an orbit have: the columns that
+/// each has alone are eliminated in several of them side by side, and what is left by fronts. Null where the
+/// blocks are few or large.
+std::unique_ptr<SparseFactors> make_alike_factors(const SparseMatrix& pattern, Index borders);
 
 }  // namespace arcslip::continuation

@@ -134,9 +134,13 @@ class Corrector {
 
  private:
   [[nodiscard]] bool evaluate(CurvePoint& point);
-  [[nodiscard]] bool factor(const Vector& scale, const Vector& normal);
+  [[nodiscard]] bool factor(const CurvePoint& point, const Vector& scale, const Vector& normal);
   [[nodiscard]] bool solve_direction();
   double solve_correction(double change);
+  void add_correction(CurvePoint& point, const CurvePoint& origin) const;
+  [[nodiscard]] bool has_factors_at(const CurvePoint& origin, double distance);
+  [[nodiscard]] bool approach(CurvePoint& point, const CurvePoint& origin, const Vector& normal,
+                              double distance);
   void apply(CurvePoint& point, const CurvePoint& origin);
   double turn_to_parameter();
   LogProduct determinant(const Vector& scale) const;
@@ -160,10 +164,14 @@ class Corrector {
   Vector unknown_scale_;
   Vector magnitudes_;  // of the terms of F
   Vector factored_scale_;
+  Vector factored_unknowns_;  // where the last factors of a sparse problem are from
+  Regime factored_regime_;
+  bool has_direction_ = false;            // whether `direction_` is by these
+  bool begins_near_ = false;              // whether the last point's first correction was a short one
   mutable Eigen::VectorX<Index> counts_;  // of the rows' entries
   mutable Vector squares_;                // of the rows' lengths
   Vector parameter_scale_;
-  Vector before_;            // the unknowns before the last correction of `close`
+  Vector before_;            // the unknowns before the last correction of `close`, or F on the way to a point
   Vector parameter_normal_;  // the condition that keeps the parameter
 };
 

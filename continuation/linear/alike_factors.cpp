@@ -1,0 +1,371 @@
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "arcslip/continuation/linear/blocks_side_by_side.hpp"
+#include "arcslip/continuation/linear/bordered_solver.hpp"
+#include "arcslip/continuation/linear/front_plan.hpp"
+#include "arcslip/continuation/linear/sparse_factors.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr Index lanes = BlocksSideBySide::lanes;
+constexpr std::size_t least_blocks = 8;
+constexpr std::size_t most_rows = 32;  // of one: more are fronts of their own
+
+std::size_t slot(int i) { return static_cast<std::size_t>(i); }
+
+/// Where an entry is among the values; -1 where the pattern lacks it.
+int place_in(const SparseMatrix& pattern, Index row, Index column) {
+  const int* const rows = pattern.innerIndexPtr();
+  const int* const end = rows + pattern.outerIndexPtr()[column + 1];
+  const int* const found =
+      std::lower_bound(rows + pattern.outerIndexPtr()[column], end, static_cast<int>(row));
+  return found != end && *found == row ? static_cast<int>(found - rows) : -1;
+}
+
+/// Rows with the same columns.
+struct Block {
+  std::vector<int> rows;
+  std::vector<int> inner;  // columns that no other rows have, but those that stay
+  std::vector<int> outer;  // the others
+};
+
+/// Which rows and columns of a matrix go into blocks of one size, and which are left.
+struct Parts {
+  std::vector<Block> blocks;
+  std::vector<int> staying;  // rows
+  std::vector<int> others;   // rows that are in no block
+  std::vector<int> columns;  // that are left
+};
+
+using RowsByColumns = std::map<std::vector<int>, std::vector<int>>;
+
+RowsByColumns rows_by_columns(const SparseMatrix& pattern, Index borders, std::vector<int>& staying) {
+  std::vector<std::vector<int>> columns(static_cast<std::size_t>(pattern.rows()));
+  for (int j = 0; j < pattern.cols(); ++j) {
+    for (SparseMatrix::InnerIterator entry(pattern, j); entry; ++entry)
+      columns[static_cast<std::size_t>(entry.row())].push_back(j);
+  }
+  const Index most = most_of_a_row(pattern);
+  RowsByColumns result;
+  for (int i = 0; i < pattern.rows(); ++i) {
+    const bool stays = i >= pattern.rows() - borders || std::ssize(columns[slot(i)]) > most;
+    (stays ? staying : result[columns[slot(i)]]).push_back(i);
+  }
+  return result;
+}
+
+Parts find_parts(const SparseMatrix& pattern, Index borders) {
+  Parts parts;
+  const RowsByColumns all = rows_by_columns(pattern, borders, parts.staying);
+  std::vector<int> uses(static_cast<std::size_t>(pattern.cols()), 0);
+  for (const auto& [columns, rows] : all) {
+    for (const int column : columns) ++uses[slot(column)];
+  }
+  using Size = std::vector<std::size_t>;
+  std::map<Size, std::vector<Block>> by_size;
+  for (const auto& [columns, rows] : all) {
+    Block block{rows, {}, {}};
+    for (const int column : columns) (uses[slot(column)] == 1 ? block.inner : block.outer).push_back(column);
+    const bool serves = !block.inner.empty() && block.inner.size() < rows.size() && rows.size() <= most_rows;
+    if (serves) by_size[{rows.size(), block.inner.size(), block.outer.size()}].push_back(block);
+  }
+  for (auto& [size, blocks] : by_size) {
+    if (blocks.size() >= least_blocks && blocks.size() > parts.blocks.size())
+      parts.blocks = std::move(blocks);
+  }
+  std::vector<char> is_row_left(static_cast<std::size_t>(pattern.rows()), 1);
+  std::vector<char> is_column_left(static_cast<std::size_t>(pattern.cols()), 1);
+  for (const int row : parts.staying) is_row_left[slot(row)] = 0;
+  for (const Block& block : parts.blocks) {
+    for (const int row : block.rows) is_row_left[slot(row)] = 0;
+    for (const int column : block.inner) is_column_left[slot(column)] = 0;
+  }
+  for (int i = 0; i < pattern.rows(); ++i) {
+    if (is_row_left[slot(i)] != 0) parts.others.push_back(i);
+    if (is_column_left[slot(i)] != 0) parts.columns.push_back(i);
+  }
+  return parts;
+}
+
+/// The same numbers of all blocks, those of `lanes` side by side: of the last one again where there are
+/// fewer.
+class Table {
+ public:
+  Table(Index blocks, Index count) : entries_(count * lanes, (blocks + lanes - 1) / lanes) {}
+
+  void set(Index block, Index k, int value) {
+    for (Index lane = block % lanes; lane < lanes; ++lane) entries_(k * lanes + lane, block / lanes) = value;
+  }
+  auto of(Index batch) const { return entries_.col(batch); }
+
+ private:
+  Eigen::MatrixX<int> entries_;
+};
+
+class AlikeFactors final : public SparseFactors {
+ public:
+  AlikeFactors(const SparseMatrix& pattern, const Parts& parts)
+      : blocks_(std::ssize(parts.blocks)),
+        pivots_(std::ssize(parts.blocks.front().inner)),
+        left_rows_(std::ssize(parts.blocks.front().rows) - pivots_),
+        outer_(std::ssize(parts.blocks.front().outer)),
+        staying_(std::ssize(parts.staying)),
+        height_(pivots_ + left_rows_ + staying_),
+        rows_(blocks_, pivots_ + left_rows_),
+        inner_columns_(blocks_, pivots_),
+        outer_columns_(blocks_, outer_),
+        sources_(blocks_, height_ * (pivots_ + outer_)),
+        targets_(blocks_, (height_ - pivots_) * outer_),
+        batches_(static_cast<std::size_t>((blocks_ + lanes - 1) / lanes),
+                 BlocksSideBySide(height_, pivots_ + outer_, pivots_, staying_)),
+        vectors_(height_ * lanes, std::ssize(batches_)),
+        behind_(outer_ * lanes),
+        rest_vector_(std::ssize(parts.columns)) {
+    set_orders(parts);
+    build_rest(pattern, parts);
+    rest_factors_ = make_frontal_factors(rest_, staying_, std::numeric_limits<double>::infinity());
+  }
+
+  bool is_made() const { return rest_factors_ != nullptr; }
+
+  double factor(SparseMatrix& matrix) override {
+    const double* const values = matrix.valuePtr();
+    double* const rest = rest_.valuePtr();
+    rest_.coeffs().setZero();
+    for (const auto& [from, to] : kept_) rest[to] = values[from];
+    double sign = orders_sign_;
+    growth_ = 0;
+    for (Index b = 0; b < std::ssize(batches_); ++b) {
+      BlocksSideBySide& batch = batches_[static_cast<std::size_t>(b)];
+      const auto sources = sources_.of(b);
+      double* const entries = batch.at(0, 0);
+      for (Index k = 0; k < sources.size(); ++k) entries[k] = sources(k) < 0 ? 0 : values[sources(k)];
+      batch.eliminate();
+      growth_ = std::max(growth_, batch.largest());
+      for (Index lane = 0; lane < lanes_of(b); ++lane) sign *= batch.sign(lane);
+      leave(batch, b);
+    }
+    return growth_ < worst_growth ? sign * rest_factors_->factor(rest_) : 0;
+  }
+
+  void multiply_determinant(LogProduct& product) const override {
+    for (Index b = 0; b < std::ssize(batches_); ++b) {
+      for (Index k = 0; k < pivots_; ++k) {
+        const double* const pivots = batches_[static_cast<std::size_t>(b)].at(k, k);
+        for (Index lane = 0; lane < lanes_of(b); ++lane) product *= pivots[lane];
+      }
+    }
+    rest_factors_->multiply_determinant(product);
+  }
+
+  bool is_exact() const override { return growth_ < little_growth && rest_factors_->is_exact(); }
+
+  void solve(Vector& x) override {
+    for (Index i = 0; i < other_rows_.size(); ++i) rest_vector_(i) = x(other_rows_(i));
+    auto staying = rest_vector_.tail(staying_);
+    for (Index i = 0; i < staying_; ++i) staying(i) = x(staying_rows_(i));
+    for (Index b = 0; b < std::ssize(batches_); ++b) {
+      auto y = vectors_.col(b);
+      const auto rows = rows_.of(b);
+      for (Index k = 0; k < rows.size(); ++k) y(k) = x(rows(k));
+      y.tail(staying_ * lanes).setZero();
+      batches_[static_cast<std::size_t>(b)].forward(y.data());
+      for (Index lane = 0; lane < lanes_of(b); ++lane) {
+        for (Index i = 0; i < left_rows_; ++i)
+          rest_vector_(first_left(b * lanes + lane) + i) = y((pivots_ + i) * lanes + lane);
+        for (Index i = 0; i < staying_; ++i) staying(i) += y((pivots_ + left_rows_ + i) * lanes + lane);
+      }
+    }
+    rest_factors_->solve(rest_vector_);
+    for (Index i = 0; i < columns_.size(); ++i) x(columns_(i)) = rest_vector_(i);
+    for (Index b = 0; b < std::ssize(batches_); ++b) {
+      auto y = vectors_.col(b);
+      const auto outer = outer_columns_.of(b);
+      for (Index k = 0; k < outer.size(); ++k) behind_(k) = rest_vector_(outer(k));
+      batches_[static_cast<std::size_t>(b)].back(y.data(), behind_.data());
+      const auto inner = inner_columns_.of(b);
+      for (Index k = 0; k < inner.size(); ++k) x(inner(k)) = y(k);
+    }
+  }
+
+  void solve_transposed(Vector& x) override {
+    for (Index i = 0; i < columns_.size(); ++i) rest_vector_(i) = x(columns_(i));
+    for (Index b = 0; b < std::ssize(batches_); ++b) {
+      auto y = vectors_.col(b);
+      const auto inner = inner_columns_.of(b);
+      for (Index k = 0; k < inner.size(); ++k) y(k) = x(inner(k));
+      behind_.setZero();
+      batches_[static_cast<std::size_t>(b)].forward_transposed(y.data(), behind_.data());
+      const auto outer = outer_columns_.of(b);
+      for (Index k = 0; k < outer_; ++k) {
+        for (Index lane = 0; lane < lanes_of(b); ++lane)
+          rest_vector_(outer(k * lanes + lane)) += behind_(k * lanes + lane);
+      }
+    }
+    rest_factors_->solve_transposed(rest_vector_);
+    for (Index i = 0; i < other_rows_.size(); ++i) x(other_rows_(i)) = rest_vector_(i);
+    const auto staying = rest_vector_.tail(staying_);
+    for (Index i = 0; i < staying_; ++i) x(staying_rows_(i)) = staying(i);
+    for (Index b = 0; b < std::ssize(batches_); ++b) {
+      auto y = vectors_.col(b);
+      for (Index lane = 0; lane < lanes; ++lane) {
+        const Index first = first_left(std::min(b * lanes + lane, blocks_ - 1));
+        for (Index i = 0; i < left_rows_; ++i) y((pivots_ + i) * lanes + lane) = rest_vector_(first + i);
+        for (Index i = 0; i < staying_; ++i) y((pivots_ + left_rows_ + i) * lanes + lane) = staying(i);
+      }
+      batches_[static_cast<std::size_t>(b)].back_transposed(y.data());
+      const auto rows = rows_.of(b);
+      for (Index k = 0; k < rows.size(); ++k) x(rows(k)) = y(k);
+    }
+  }
+
+ private:
+  Index lanes_of(Index batch) const { return std::min(lanes, blocks_ - batch * lanes); }
+  /// Of the rows that are left of a block, among the rest's: behind the others, before those that stay.
+  Index first_left(Index block) const { return other_rows_.size() + block * left_rows_; }
+
+  void set_orders(const Parts& parts) {
+    const auto copy = [](const std::vector<int>& from) {
+      return Eigen::VectorX<int>(Eigen::Map<const Eigen::VectorX<int>>(from.data(), std::ssize(from)));
+    };
+    other_rows_ = copy(parts.others);
+    staying_rows_ = copy(parts.staying);
+    columns_ = copy(parts.columns);
+    std::vector<int> row_order;
+    std::vector<int> column_order;
+    for (const Block& block : parts.blocks) {
+      row_order.insert(row_order.end(), block.rows.begin(), block.rows.begin() + pivots_);
+      column_order.insert(column_order.end(), block.inner.begin(), block.inner.end());
+    }
+    row_order.insert(row_order.end(), parts.others.begin(), parts.others.end());
+    for (const Block& block : parts.blocks)
+      row_order.insert(row_order.end(), block.rows.begin() + pivots_, block.rows.end());
+    row_order.insert(row_order.end(), parts.staying.begin(), parts.staying.end());
+    column_order.insert(column_order.end(), parts.columns.begin(), parts.columns.end());
+    std::vector<char> seen(row_order.size());
+    orders_sign_ = permutation_sign(row_order.data(), seen) * permutation_sign(column_order.data(), seen);
+  }
+
+  /// What is left: of other rows what they have, of blocks all outer columns, and full rows that stay.
+  void build_rest(const SparseMatrix& pattern, const Parts& parts) {
+    const Index size = columns_.size();
+    Eigen::VectorX<int> row_of = Eigen::VectorX<int>::Constant(pattern.rows(), -1);
+    Eigen::VectorX<int> column_of = row_of;
+    for (Index k = 0; k < other_rows_.size(); ++k) row_of(other_rows_(k)) = static_cast<int>(k);
+    for (Index k = 0; k < size; ++k) column_of(columns_(k)) = static_cast<int>(k);
+    std::vector<std::vector<int>> rows(static_cast<std::size_t>(size));
+    for (Index k = 0; k < size; ++k) {
+      for (SparseMatrix::InnerIterator entry(pattern, columns_(k)); entry; ++entry) {
+        if (row_of(entry.row()) >= 0) rows[static_cast<std::size_t>(k)].push_back(row_of(entry.row()));
+      }
+    }
+    for (Index b = 0; b < blocks_; ++b) {
+      for (const int column : parts.blocks[static_cast<std::size_t>(b)].outer) {
+        for (Index i = 0; i < left_rows_; ++i)
+          rows[slot(column_of(column))].push_back(static_cast<int>(first_left(b) + i));
+      }
+    }
+    rest_.resize(size, size);
+    for (Index k = 0; k < size; ++k) {
+      std::vector<int>& own = rows[static_cast<std::size_t>(k)];
+      for (Index i = size - staying_; i < size; ++i) own.push_back(static_cast<int>(i));
+      std::sort(own.begin(), own.end());
+      rest_.startVec(k);
+      for (const int row : own) rest_.insertBack(row, k) = 0;
+    }
+    rest_.finalize();
+    for (Index k = 0; k < staying_; ++k) row_of(staying_rows_(k)) = static_cast<int>(size - staying_ + k);
+    for (Index k = 0; k < size; ++k) {
+      const int begin = pattern.outerIndexPtr()[columns_(k)];
+      const int end = pattern.outerIndexPtr()[columns_(k) + 1];
+      for (int from = begin; from < end; ++from) {
+        const int row = row_of(pattern.innerIndexPtr()[from]);
+        if (row >= 0) kept_.emplace_back(from, place_in(rest_, row, k));
+      }
+    }
+    fill_tables(pattern, parts, column_of);
+  }
+
+  void fill_tables(const SparseMatrix& pattern, const Parts& parts, const Eigen::VectorX<int>& column_of) {
+    for (Index b = 0; b < blocks_; ++b) {
+      const Block& block = parts.blocks[static_cast<std::size_t>(b)];
+      std::vector<int> rows = block.rows;
+      rows.insert(rows.end(), parts.staying.begin(), parts.staying.end());
+      std::vector<int> columns = block.inner;
+      columns.insert(columns.end(), block.outer.begin(), block.outer.end());
+      for (Index j = 0; j < std::ssize(columns); ++j) {
+        const int column = columns[static_cast<std::size_t>(j)];
+        if (j < pivots_) {
+          inner_columns_.set(b, j, column);
+        } else {
+          outer_columns_.set(b, j - pivots_, column_of(column));
+        }
+        for (Index i = 0; i < height_; ++i) {
+          const int row = rows[static_cast<std::size_t>(i)];
+          const bool stays = i >= pivots_ + left_rows_;
+          if (j == 0 && !stays) rows_.set(b, i, row);
+          sources_.set(b, j * height_ + i, stays && j >= pivots_ ? -1 : place_in(pattern, row, column));
+          if (i < pivots_ || j < pivots_) continue;
+          const Index left = stays ? columns_.size() - height_ + i : first_left(b) + i - pivots_;
+          targets_.set(b, (j - pivots_) * (height_ - pivots_) + i - pivots_,
+                       place_in(rest_, left, column_of(column)));
+        }
+      }
+    }
+  }
+
+  /// What is left of blocks goes into the rest.
+  void leave(const BlocksSideBySide& batch, Index b) {
+    double* const rest = rest_.valuePtr();
+    const auto targets = targets_.of(b);
+    for (Index j = 0; j < outer_; ++j) {
+      const double* const column = batch.at(pivots_, pivots_ + j);
+      const int* const to = targets.data() + j * (height_ - pivots_) * lanes;
+      for (Index i = 0; i < height_ - pivots_; ++i) {
+        for (Index lane = 0; lane < lanes_of(b); ++lane)
+          rest[to[i * lanes + lane]] += column[i * lanes + lane];
+      }
+    }
+  }
+
+  Index blocks_;
+  Index pivots_;
+  Index left_rows_;  // of each block
+  Index outer_;      // columns
+  Index staying_;    // rows
+  Index height_;     // of a block with these
+  Eigen::VectorX<int> other_rows_;
+  Eigen::VectorX<int> staying_rows_;
+  Eigen::VectorX<int> columns_;            // of the rest
+  std::vector<std::pair<int, int>> kept_;  // entries of the matrix, and where they are among the rest's
+  Table rows_;                             // of blocks
+  Table inner_columns_;
+  Table outer_columns_;  // among the rest's
+  Table sources_;        // of their entries, or -1
+  Table targets_;        // of what is left
+  std::vector<BlocksSideBySide> batches_;
+  Matrix vectors_;  // of all their rows
+  Vector behind_;
+  Vector rest_vector_;
+  SparseMatrix rest_;
+  std::unique_ptr<SparseFactors> rest_factors_;
+  double orders_sign_ = 1;
+  double growth_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<SparseFactors> make_alike_factors(const SparseMatrix& pattern, Index borders) {
+  const Parts parts = find_parts(pattern, borders);
+  if (parts.blocks.empty()) return nullptr;
+  auto factors = std::make_unique<AlikeFactors>(pattern, parts);
+  if (!factors->is_made()) return nullptr;
+  return factors;
+}
+
+}  // namespace arcslip::continuation
