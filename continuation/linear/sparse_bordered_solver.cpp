@@ -75,9 +75,9 @@ void SparseBorderedSolver::set_pattern(const SparseMatrix& jacobian) {
   if (status < 0) throw std::invalid_argument("set_jacobian: the sparse Jacobian is not a valid matrix");
   for (Index i = n; i < rows; ++i) order_[static_cast<std::size_t>(i)] = static_cast<int>(i);
   find_last_rows(jacobian);
-  frontal_ = make_alike_factors(matrix_, borders());
-  if (frontal_ == nullptr)
-    frontal_ = make_frontal_factors(matrix_, borders(), dense_gain * info[AMD_NMULTSUBS_LU]);
+  dense_ = make_alike_factors(matrix_, borders());
+  if (dense_ == nullptr)
+    dense_ = make_frontal_factors(matrix_, borders(), dense_gain * info[AMD_NMULTSUBS_LU]);
   klu_.reset();
 }
 
@@ -138,9 +138,9 @@ bool SparseBorderedSolver::scale_rows(double weight_of_last) {
 double SparseBorderedSolver::factor() {
   if (matrix_.rows() == 0) return 0;
   set_borders();
-  if (frontal_ != nullptr) {
+  if (dense_ != nullptr) {
     if (!scale_rows(1)) return 0;
-    factors_ = frontal_.get();
+    factors_ = dense_.get();
     const double sign = factors_->factor(scaled_);
     if (sign != 0) return sign;
   }

@@ -146,6 +146,7 @@ bool Corrector::approach(CurvePoint& point, const CurvePoint& origin, const Vect
   for (int i = 0; i < most; ++i) {
     difference(point, origin, correction_);
     const double gap = distance - normal.dot(correction_);
+    if (options_.watch) options_.watch();
     if (!continuation::evaluate(problem_, point.unknowns, point.parameters, point.regime,
                                 {.residual = &before_}))
       return i > 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Sparse bordered systems: by fronts where dense arithmetic pays, else by single entries.
+// Sparse bordered systems: by blocks and fronts where dense arithmetic pays, else by single entries.
 
 #include <memory>
 
@@ -16,9 +16,10 @@ namespace arcslip::continuation {
 /// refinement, at 4 % of a factorisation of 10^5 unknowns, gives back the digits that the smaller pivots
 /// cost.
 ///
-/// Fronts are used where they cost no more than six times the multiplications of KLU's order; where their
-/// pivots do not serve, KLU takes over. Nothing is allocated in fronts, and by KLU where the pivots of its
-/// last factorisation still serve.
+/// Small blocks that are alike are eliminated first, side by side, and what they leave by fronts. Without
+/// such, fronts are used where they cost no more than six times the multiplications of KLU's order; where
+/// their pivots do not serve, KLU takes over. Nothing is allocated in fronts, and by KLU where the pivots of
+/// its last factorisation still serve.
 class SparseBorderedSolver final : public BorderedSolver {
  public:
   /// For n = `size` unknowns; neither number may be negative.
@@ -51,9 +52,9 @@ class SparseBorderedSolver final : public BorderedSolver {
   Vector right_hand_side_;
   Vector solution_;
   Vector residual_;
-  std::vector<int> order_;        // of elimination, with the least fill
-  std::vector<Index> last_rows_;  // for its end
-  std::unique_ptr<SparseFactors> frontal_;
+  std::vector<int> order_;                // of elimination, with the least fill
+  std::vector<Index> last_rows_;          // for its end
+  std::unique_ptr<SparseFactors> dense_;  // by fronts, or by blocks that are alike and then by fronts
   std::unique_ptr<SparseFactors> klu_;
   SparseFactors* factors_ = nullptr;  // which of them
 };
