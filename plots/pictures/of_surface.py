@@ -45,8 +45,11 @@ class PicturesOfSurface:
 
     def _draw(self):
         branch, *place = self.charts.read(["branch", *self.parameters, self.height])
-        faces = np.stack(self._table("faces.csv", ["branch"]).read(["chart_1", "chart_2", "chart_3"]), axis=1).astype(int)
-        of_face = self._table("faces.csv", ["branch"]).read(["branch"])[0]
+        try:
+            of_face, *corners = self._table("faces.csv", ["branch"]).read(["branch", "chart_1", "chart_2", "chart_3"])
+        except Refused:
+            raise Refused(f"{self.folder}: holds no triangles of a surface, which ended before it had any") from None
+        faces = np.stack(corners, axis=1).astype(int)
         faces += np.searchsorted(branch, of_face)[:, None]  # charts are counted anew in each branch
         width, tall = self.options.size or (style.WIDTH, 7.2)
         page = Page(width, tall, self.measure)
