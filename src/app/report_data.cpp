@@ -158,6 +158,9 @@ std::string report_data(const std::string& folder) {
   const ordered_json summary = summary_of(folder);
   return reading(folder, summary, [&] {
     const bool has_run = !summary.at("case").contains("study");
+    if (summary.at("case").contains(ordered_json::json_pointer("/branch/surface")))
+      throw InputError(
+          fmt::format("{}: holds a surface, which reports do not show; arcslip plot draws it", folder));
     ordered_json models;
     for (const StructureKind& kind : structure_kinds()) {
       for (const std::string& model : kind.models) models[model] = kind.frequency_unit;

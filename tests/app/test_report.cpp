@@ -112,6 +112,17 @@ TEST_CASE("A title cannot end the data of a page, nor begin markup", "[report]")
   CHECK(read(folder.path("r/report.html")).find("alert(1)</script>") == std::string::npos);
 }
 
+TEST_CASE("report says of a surface that plot draws it", "[report]") {
+  const TemporaryFolder folder;
+  REQUIRE(arcslip_program("run " + source_folder() + "/problems/tank_surface.toml --quiet -o " +
+                          folder.path("tank"))
+              .status == 0);
+  const Outcome outcome = report(folder.path("tank"));
+  CHECK(outcome.status == 1);
+  CHECK(is_one_line(outcome.err));
+  CHECK_THAT(outcome.err, ContainsSubstring("arcslip plot draws it"));
+}
+
 TEST_CASE("report refuses a folder without results, in one line that names the file", "[report]") {
   const TemporaryFolder folder;
   run_figure_8(folder, "whole");
