@@ -68,7 +68,7 @@ def trace_all(
     parameter: str | None = None,
     range: tuple[float, float] = (0.0, 1.0),
     *,
-    follow: Literal["connected", "deflation"] = "connected",
+    follow: Literal["connected", "deflation", "all"] = "connected",
     box: tuple[ArrayLike, ArrayLike] | None = None,
     regime: _Regime = 0,
     check: bool = True,
@@ -121,7 +121,7 @@ def solve_all(
     regime: _Regime = 0,
     parameter: str | None = None,
     **functions: Any,
-) -> list[_Array]: ...
+) -> Solutions: ...
 def surface(
     problem: _Function | Problem,
     u0: ArrayLike | list[ArrayLike] | None = None,
@@ -136,6 +136,11 @@ def surface(
     extrema_of: Sequence[str] = (),
     **functions: Any,
 ) -> Surface: ...
+
+class Solutions(list[_Array]):
+    complete: bool | None
+    reason: str
+    def __init__(self, found: list[_Array], complete: bool | None, reason: str) -> None: ...
 
 class Surface:
     parameters: tuple[str, str]
