@@ -155,18 +155,29 @@ std::vector<Guess> all_other_ways(SymmetricBranches& symmetric, Index active, co
   return ways;
 }
 
-/// Whether a point is the solution, at the same value of the parameter.
-bool is_solution(const BranchPoint& point, const Problem& problem, const Guess& solution,
-                 const TraceOptions& options) {
-  const Index active = index_of(problem.parameter_names(), options.parameter);
-  if (point.parameters(active) != solution.parameters(active) || point.regime != solution.regime)
-    return false;
-  Vector scale(solution.unknowns.size());
-  Vector parameter_scale(solution.parameters.size());
-  problem.scale(solution.unknowns, solution.parameters, scale, parameter_scale);
-  return (point.unknowns - solution.unknowns).cwiseQuotient(scale).lpNorm<Eigen::Infinity>() <
-         options.tolerances.same_solution;
-}
+/// Whether points are a solution, at the same value of the parameter. Keeps a reference to it.
+class IsSolution {
+ public:
+  IsSolution(const Problem& problem, const Guess& solution, const TraceOptions& options)
+      : solution_(solution),
+        active_(index_of(problem.parameter_names(), options.parameter)),
+        same_(options.tolerances.same_solution),
+        scale_(solution.unknowns.size()) {
+    Vector parameter_scale(solution.parameters.size());
+    problem.scale(solution.unknowns, solution.parameters, scale_, parameter_scale);
+  }
+
+  bool operator()(const BranchPoint& point) const {
+    return point.parameters(active_) == solution_.parameters(active_) && point.regime == solution_.regime &&
+           (point.unknowns - solution_.unknowns).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>() < same_;
+  }
+
+ private:
+  const Guess& solution_;
+  Index active_;
+  double same_;
+  Vector scale_;
+};
 
 /// Whether one of the branches passes the solution, or its image under one of the options' symmetries.
 bool passes(const std::vector<Branch>& branches, const Problem& problem, const Guess& solution,
@@ -177,10 +188,9 @@ bool passes(const std::vector<Branch>& branches, const Problem& problem, const G
     images.back().unknowns = symmetry.map * solution.unknowns;
   }
   return std::any_of(images.begin(), images.end(), [&](const Guess& image) {
+    const IsSolution is_solution(problem, image, options);
     return std::any_of(branches.begin(), branches.end(), [&](const Branch& branch) {
-      return std::any_of(branch.points.begin(), branch.points.end(), [&](const BranchPoint& point) {
-        return is_solution(point, problem, image, options);
-      });
+      return std::any_of(branch.points.begin(), branch.points.end(), is_solution);
     });
   });
 }
@@ -228,8 +238,9 @@ class Network {
     Guess start = solution;
     const Problem& within = symmetric_.of(start);
     Branch branch = trace_both(within, start, landing_on(solution, problem_, time_.rest()), observer_);
+    const IsSolution is_solution(problem_, start, options_);
     for (const BranchPoint& point : branch.points) {
-      if (is_solution(point, problem_, start, options_)) map_.pass(point);
+      if (is_solution(point)) map_.pass(point);
     }
     take(within, std::move(branch));
   }
