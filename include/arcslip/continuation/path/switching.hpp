@@ -28,17 +28,16 @@ struct FollowOptions {
 std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, const TraceOptions& options,
                                     const FollowOptions& follow = {}, const Observer& observer = {});
 
-/// The same without the first branch, of which these are the special points: what leaves it there, and all
-/// that can be reached from that.
-std::vector<Branch> trace_leaving(const Problem& problem, const std::vector<BranchPoint>& points,
-                                  const TraceOptions& options, const FollowOptions& follow = {},
-                                  const Observer& observer = {});
-
 /// The same through solutions at one value of the parameter, from which the first branches are traced both
 /// ways as `trace_through` does it.
 std::vector<Branch> trace_connected_through(const Problem& problem, const std::vector<Guess>& solutions,
                                             const TraceOptions& options, const FollowOptions& follow = {},
                                             const Observer& observer = {});
+
+/// What leaves special points of branches that are known, and all that can be reached from that.
+std::vector<Branch> trace_leaving(const Problem& problem, const std::vector<BranchPoint>& points,
+                                  const TraceOptions& options, const FollowOptions& follow = {},
+                                  const Observer& observer = {});
 
 /// The branches through solutions at one value of the parameter, as `solve_all` finds them, both ways, each
 /// branch once however many of the solutions it holds. Each gets a `user` point at the value.
