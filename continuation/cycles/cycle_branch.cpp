@@ -135,15 +135,15 @@ bool renew(OrbitProblem& problem, MeshWatch& meshes, Branch& branch, const Trace
 /// way: where it comes ever nearer to an equilibrium. Relaxation oscillations grow as fast, without rest.
 class GrowthWatch {
  public:
-  GrowthWatch(const OrbitProblem& problem, const TraceOptions& options)
+  GrowthWatch(const OrbitProblem& problem, const TraceOptions& options, double tolerance)
       : problem_(problem),
         options_(options),
+        nearly_(0.01 * tolerance),
         parameter_(index_of(problem.parameter_names(), options.parameter)) {}
 
   bool goes_on(const BranchPoint& point) {
     constexpr double grown = 1.05;
-    constexpr double nearly = 1e-9;  // of the parameter, whose distance from its limit falls with e^-T
-    constexpr int many = 30;         // points: where rounding hides how an orbit goes on
+    constexpr int many = 30;       // points: where rounding hides how an orbit goes on
     constexpr double rest = 1e-2;  // of the mean speed: that from an equilibrium falls with e^(-T/2) at least
     if (!problem_.has_duration()) return true;
     Vector unknowns(problem_.size());
@@ -151,7 +151,7 @@ class GrowthWatch {
     problem_.scale(point.unknowns, point.parameters, unknowns, scale);
     const double value = point.parameters(parameter_);
     const double period = problem_.duration(point.unknowns, point.parameters);
-    const double same = nearly * scale(parameter_);
+    const double same = nearly_ * scale(parameter_);
     last_period_ = period;
     if (!(std::abs(value - value_) <= same) || period < period_) {
       value_ = value;
@@ -173,6 +173,7 @@ class GrowthWatch {
  private:
   const OrbitProblem& problem_;
   const TraceOptions& options_;
+  double nearly_;  // of the parameter: its distance from its limit falls with e^-T until meshes hide it
   Index parameter_;
   double value_ = std::numeric_limits<double>::quiet_NaN();
   double period_ = 0;  // the least at this value
@@ -218,7 +219,7 @@ Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& 
   options.journal = nullptr;  // which has no meshes: the same work is done anew
   const KindWatch kind(problem, options);
   MeshWatch meshes(problem, orbits);
-  GrowthWatch growth(problem, options);
+  GrowthWatch growth(problem, options, orbits.tolerance);
   bool worn = false;
   bool told = false;
   bool grows = false;

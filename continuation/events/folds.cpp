@@ -1,24 +1,33 @@
 // Where the parameter turns.
 
+#include <cmath>
+
 #include "arcslip/continuation/events/step_search.hpp"
 
 namespace arcslip::continuation {
 namespace {
 
+/// Which way the parameter came: by how far it went, as each step of a branch that winds may begin on a fold;
+/// of a way that is rounding by its rate where that began.
+int way_here(const StepSearch& search) {
+  constexpr double rounding = 1e-12;
+  const Step& step = search.stepper.step();
+  if (step.past.empty()) return 0;
+  return std::abs(step.moved) > rounding
+             ? sign_of(step.moved)
+             : sign_of_rate(search.stepper, step.past.front().rate / step.here.scale.tail(1)(0));
+}
+
 /// Whether the parameter has stood still up to where the step begins, and may have turned before.
 bool has_stood(const StepSearch& search) {
-  const Step& step = search.stepper.step();
-  const double begin = step.parameter_rate_from();
+  const double begin = search.stepper.step().parameter_rate_from();
   const int before = search.signs.parameter;
-  return sign_of_rate(search.stepper, begin) == 0 && before * begin <= 0 && !step.past.empty() &&
-         before * sign_of_rate(search.stepper, step.past.front().rate / step.here.scale.tail(1)(0)) >= 0;
+  return sign_of_rate(search.stepper, begin) == 0 && before * begin <= 0 &&
+         !search.stepper.step().past.empty() && before * way_here(search) >= 0;
 }
 
 /// Whether the step begins on a fold.
-bool has_turned(const StepSearch& search) {
-  const std::vector<PastPoint>& past = search.stepper.step().past;
-  return !past.empty() && search.signs.parameter * sign_of(past.front().rate) < 0;
-}
+bool has_turned(const StepSearch& search) { return search.signs.parameter * way_here(search) < 0; }
 
 /// Two in one step, the second of which turns the parameter back, show in how far it has come; but from where
 /// the branch turns itself, as at a pitchfork, the way there is not told by a slope. A parameter that has

@@ -96,6 +96,7 @@ void Stepper::restore(const Progress& progress) {
   bend_ = progress.bend;
   at_here_ = progress.monitors;
   step_.past = progress.past;
+  set_moved(progress.last_value);
   revision_ = problem_.revision() - progress.rescaled;
   if (!std::isnan(step_.here.log_determinant)) return;
   if (corrector_.linearise(step_.here, step_.here.tangent) == Correction::converged)
@@ -333,7 +334,13 @@ void Stepper::advance() {
   step_.past.insert(step_.past.begin(),
                     {length, step_.here.orientation, step_.here.log_determinant, parameter_rate(step_.here)});
   std::swap(step_.here, step_.there);
+  set_moved(step_.there.parameters(corrector_.parameter()));
   bend_ = next_bend_;
+}
+
+void Stepper::set_moved(double before) {
+  const CurvePoint& here = step_.here;
+  step_.moved = (here.parameters(corrector_.parameter()) - before) / here.scale(corrector_.size());
 }
 
 }  // namespace arcslip::continuation

@@ -40,6 +40,7 @@ struct Step {
   };
   std::vector<Anchor> anchors;  ///< by s
   std::vector<PastPoint> past;  ///< before `here`, the last one first
+  double moved = 0;             ///< how far the parameter went in the step before, over its scale
 
   /// Change of the parameter over s at both ends.
   double parameter_rate_from() const { return slope_from(slope_from.size() - 1); }
