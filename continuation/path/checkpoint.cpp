@@ -16,7 +16,7 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr std::string_view signature = "arcslip-checkpoint-";
-constexpr int newest = 4;  // of the versions of the text
+constexpr int newest = 5;  // of the versions of the text
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -187,6 +187,9 @@ void progress(Archive& archive, Way& way) {
     list(archive, look.rates, number);
   });
   if (archive.version >= 4) archive(way.rescaled);
+  if (archive.version < 5) return;
+  archive(way.fold);
+  archive(way.winding);
 }
 
 Stop read_stop(const std::string& name) {

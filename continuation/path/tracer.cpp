@@ -179,7 +179,7 @@ void Tracer::step() {
 
 bool Tracer::try_step() {
   double& distance = state_.distance;
-  distance = std::min(distance, options_.max_step / stepper_.slope_length(state_.hold));
+  distance = std::min(distance, longest_step() / stepper_.slope_length(state_.hold));
   stepper_.set_on_target(!targets_.taken().empty());
   const double rate = stepper_.parameter_slope(state_.hold);
   landing_ = next_target(1.1 * distance * std::abs(rate) * parameter_scale(), rate > 0 ? 1 : -1);

@@ -1,6 +1,7 @@
 // What a branch takes from the events that a step ends at.
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "arcslip/continuation/path/repetition.hpp"
@@ -19,6 +20,14 @@ bool Tracer::meets(const CurvePoint& point) const {
   return count(near) > count(options_.tolerances.same_solution);
 }
 
+/// On a branch that winds no step may pass more than one turn: two would not show in how the parameter runs
+/// at its ends.
+double Tracer::longest_step() const {
+  constexpr double to_next = 1.4;  // of the way between the last two folds
+  const bool winds = state_.arclength - state_.fold < 2 * state_.winding;
+  return winds ? std::min(options_.max_step, to_next * state_.winding) : options_.max_step;
+}
+
 void Tracer::take_events(const Signs& before) {
   const CurvePoint& here = stepper_.here();
   const Passage passage{before, state_.signs, stepper_, watch_};
@@ -26,6 +35,10 @@ void Tracer::take_events(const Signs& before) {
   for (const Event& event : events_) {
     event.kind->pass(event, passage);
     if (event.kind->ends_regime || !event.told) continue;
+    if (event.type == PointType::fold) {
+      state_.winding = std::isnan(state_.fold) ? 0 : state_.arclength - state_.fold;
+      state_.fold = state_.arclength;
+    }
     store(
         event.type == PointType::fold ? problem_.turn(here.unknowns, here.parameters, here.regime)
                                       : event.type,

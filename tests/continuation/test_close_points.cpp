@@ -4,9 +4,13 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <sstream>
+#include <utility>
 
 #include "catch.hpp"
 #include "polynomial_systems.hpp"
+#include "same_points.hpp"
+#include "scalar_problem.hpp"
 
 using namespace arcslip;
 using namespace arcslip::continuation;
@@ -119,4 +123,82 @@ TEST_CASE("The fold next to the value that a branch is to land on is passed with
     CHECK(branch.stop == Stop::left_range);
     CHECK(of_type(branch, PointType::fold).size() == 1);
   }
+}
+
+namespace {
+
+/// p = 1 + a e^(-k x) cos(w x), which turns where tan(w x) = -k/w.
+struct Winding {
+  double a;
+  double k;
+  double w;
+
+  ScalarProblem problem() const {
+    return {{"p"},
+            [*this](double x, const Vector& p) { return 1 + a * std::exp(-k * x) * std::cos(w * x) - p(0); },
+            [*this](double x, const Vector&) {
+              return -a * std::exp(-k * x) * (k * std::cos(w * x) + w * std::sin(w * x));
+            },
+            {[](double, const Vector&) { return -1.0; }}};
+  }
+
+  Branch trace(TraceOptions options) const {
+    constexpr double begin = 0.3;
+    const Guess guess{vector_of({begin}),
+                      vector_of({1 + a * std::exp(-k * begin) * std::cos(w * begin)}),
+                      {},
+                      vector_of({1, 0})};
+    return trace_one_way(problem(), guess, true, options);
+  }
+
+  /// The number of a fold, from the start on, and how far it lies from its place.
+  std::pair<long, double> number(double x) const {
+    const double turns = (w * x + std::atan(k / w)) / std::numbers::pi;
+    return {std::lround(turns), std::abs(turns - std::round(turns))};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("A branch that winds has all its folds told, once each, however little the parameter moves") {
+  for (const double a : {1e-2, 1e-4, 1e-6}) {
+    for (const double k : {0.02, 0.3}) {
+      for (const double w : {2.0, 6.0}) {
+        for (const double step : {0.02, 0.05, 0.2, 0.5}) {
+          TraceOptions options = over("p", 0, 2);
+          options.max_step = step;
+          options.max_points = 300;
+          const Winding winding{a, k, w};
+          const Branch branch = winding.trace(options);
+          CAPTURE(a, k, w, step);
+          long last = 0;
+          for (const BranchPoint& point : of_type(branch, PointType::fold)) {
+            if (a * std::exp(-k * point.unknowns(0)) < 1e-9) break;  // of the parameter: rates are rounding
+            const auto [number, error] = winding.number(point.unknowns(0));
+            CHECK(number == last + 1);
+            CHECK(error < 1e-4);
+            last = number;
+          }
+          CHECK(last > 3);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("A branch that winds is resumed as it was left") {
+  TraceOptions options = over("p", 0, 2);
+  options.max_step = 0.5;
+  options.max_points = 60;
+  const Winding winding{1e-4, 0.02, 6};
+  const Branch whole = winding.trace(options);
+  options.max_points = 31;
+  const Branch first = winding.trace(options);
+  REQUIRE(first.checkpoint);
+  std::stringstream text;
+  write(text, *first.checkpoint);
+  options.max_points = 29;
+  const Branch rest = resume(winding.problem(), read_checkpoint(text), options);
+  REQUIRE(rest.points.size() == 29);
+  for (std::size_t i = 0; i < rest.points.size(); ++i) check_same(rest.points[i], whole.points[31 + i]);
 }

@@ -63,14 +63,16 @@ struct Progress {
   double arclength = 0;               ///< from the start to here
   CurvePoint start;                   ///< which a closed loop comes back to
   std::map<std::string, long> found;  ///< special points so far, by type
-  double last_value = 0;              ///< of the parameter, where the last step began
-  double last_chord = 0;              ///< of the last step
-  std::vector<double> taken;          ///< values of the parameter that have their point here
-  double residual_size = 0;           ///< what the tolerance on F is relative to; 0: to be found again
-  std::vector<double> borders;        ///< of an extended problem: those of its conditions
-  std::vector<PastPoint> past;        ///< the last one first
-  std::vector<Look> looks;            ///< the one here, then earlier ones
-  int rescaled = 0;                   ///< 1 where the problem has been scaled anew here
+  double fold = std::numeric_limits<double>::quiet_NaN();  ///< arclength of the last one
+  double winding = 0;           ///< from the one before to it; 0 where it is the first
+  double last_value = 0;        ///< of the parameter, where the last step began
+  double last_chord = 0;        ///< of the last step
+  std::vector<double> taken;    ///< values of the parameter that have their point here
+  double residual_size = 0;     ///< what the tolerance on F is relative to; 0: to be found again
+  std::vector<double> borders;  ///< of an extended problem: those of its conditions
+  std::vector<PastPoint> past;  ///< the last one first
+  std::vector<Look> looks;      ///< the one here, then earlier ones
+  int rescaled = 0;             ///< 1 where the problem has been scaled anew here
 };
 
 /// What a branch is one of; whatever goes on with it must be the same.

@@ -53,6 +53,7 @@ class Tracer {
   void check_limits();
   void step();
   bool try_step();
+  double longest_step() const;
   void take_where_it_starts();
   bool try_landing();
   const Target* next_target(double reach, double direction) const;
