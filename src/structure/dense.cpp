@@ -102,7 +102,7 @@ SingularAxes<Matrix> singular_axes(const Matrix& matrix) { return axes_by(matrix
 SingularAxes<ComplexMatrix> singular_axes(const ComplexMatrix& matrix) { return axes_by(matrix); }
 
 Vector least_moved(const Matrix& matrix) {
-  return Eigen::BDCSVD<Matrix>(matrix, Eigen::ComputeFullV).matrixV().rightCols(1);
+  return singular_axes(Matrix(matrix.transpose())).directions.rightCols(1);
 }
 
 bool is_definite(const Matrix& matrix, double rounding) {

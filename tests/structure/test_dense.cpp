@@ -110,7 +110,7 @@ TEST_CASE("Axes of what a matrix makes of a ball are those of its square, the la
   REQUIRE(known.sizes(0) == Approx(5));
   REQUIRE(known.sizes(1) == Approx(2));
   REQUIRE(std::abs(known.directions(1, 0)) == Approx(1));
-  const Index n = GENERATE(2, 5, 40);  // small and large ones are worked out differently
+  const Index n = GENERATE(2, 5, 40);
   const Matrix a = random_matrix(n, n, 2);
   const Vector least = least_moved(a);
   REQUIRE(least.norm() == Approx(1));
