@@ -1,8 +1,10 @@
 // The case files of the library's problems against published answers, and all of them against their
 // equations.
 
+#include <algorithm>
 #include <filesystem>
 #include <numbers>
+#include <vector>
 
 #include "arcslip/cases/study_case.hpp"
 #include "arcslip/continuation/cycles/cycle_problem.hpp"
@@ -27,16 +29,19 @@ double residual_of(const continuation::Atlas& surface, const continuation::Probl
   return worst;
 }
 
-}  // namespace
-
-TEST_CASE("Every case is traced to its end, and every point of it solves its equations", "[cases]") {
-  int cases = 0;
+/// Those of one part of all cases in equal ones, which are tests of their own that run side by side.
+void trace_cases(std::size_t part, std::size_t parts) {
+  std::vector<std::filesystem::path> all;
   for (const auto& entry : std::filesystem::directory_iterator(source_folder() + "/problems")) {
     if (entry.path().extension() != ".toml") continue;
     if (read(entry.path()).find("\n[branch]") == std::string::npos) continue;  // a study, see below
-    ++cases;
-    INFO(entry.path().stem());
-    const Run run(entry.path().stem());
+    all.push_back(entry.path());
+  }
+  CHECK(all.size() >= 22);
+  std::sort(all.begin(), all.end());
+  for (std::size_t i = part; i < all.size(); i += parts) {
+    INFO(all[i].stem());
+    const Run run(all[i].stem());
     CHECK(run.traced.size() >= run.input.branches.size());
     for (const TracedBranch& one : run.traced) {
       INFO(one.branch.explanation);
@@ -53,7 +58,28 @@ TEST_CASE("Every case is traced to its end, and every point of it solves its equ
       CHECK(worst <= one.request->options.tolerance);
     }
   }
-  CHECK(cases >= 22);
+}
+
+}  // namespace
+
+TEST_CASE("Every case is traced to its end, and every point of it solves its equations: part 1 of 4",
+          "[cases][long]") {
+  trace_cases(0, 4);
+}
+
+TEST_CASE("Every case is traced to its end, and every point of it solves its equations: part 2 of 4",
+          "[cases][long]") {
+  trace_cases(1, 4);
+}
+
+TEST_CASE("Every case is traced to its end, and every point of it solves its equations: part 3 of 4",
+          "[cases][long]") {
+  trace_cases(2, 4);
+}
+
+TEST_CASE("Every case is traced to its end, and every point of it solves its equations: part 4 of 4",
+          "[cases][long]") {
+  trace_cases(3, 4);
 }
 
 TEST_CASE("Every study's case is read, and its last design has an optimum", "[cases]") {

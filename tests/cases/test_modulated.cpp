@@ -147,7 +147,7 @@ double departure(const TracedBranch& traced, const BranchPoint& point, int perio
 }  // namespace
 
 TEST_CASE("Modulated waves leave where pairs of exponents cross, and are those of all nodes in time",
-          "[modulated][numbers]") {
+          "[modulated][numbers][long]") {
   const std::vector<TracedBranch> all = traced_case(rods("9", "from = 3.5\nto = 3.57"));
   const std::vector<BranchPoint> crossings = points(all[0], PointType::neimark_sacker);
   REQUIRE(crossings.size() == 2);

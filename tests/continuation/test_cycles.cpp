@@ -244,7 +244,8 @@ TEST_CASE("Roessler's cycles double their periods", "[cycles]") {
   CHECK_THAT(second[0].parameters(0), WithinAbs(3.837, 2e-3));
 }
 
-TEST_CASE("Tori leave where a pair of multipliers crosses the circle, at exactly known places", "[cycles]") {
+TEST_CASE("Tori leave where a pair of multipliers crosses the circle, at exactly known places",
+          "[cycles][long]") {
   // The mean of 0.1 u_0 over the cycle is 0: the multipliers are e^(2 pi (a +- j nu)).
   const OrbitMesh mesh(CollocationRule(5), 12);
   const CycleStart start = cycle_from_orbit(std::make_shared<EquilibriumField>(with_rider()), mesh,

@@ -110,7 +110,7 @@ void check_mixed(const TorusBranch& torus, double margin) {
 
 }  // namespace
 
-TEST_CASE("A torus in mixed coordinates is that of two rates, from its birth to its end", "[tori]") {
+TEST_CASE("A torus in mixed coordinates is that of two rates, from its birth to its end", "[tori][long]") {
   for (const bool balanced : {false, true}) {
     const OrbitMesh mesh = balanced ? OrbitMesh(CollocationRule::trigonometric(6), 1) : intervals();
     const std::vector<CycleBranch> cycles{cycles_of_mixed(mesh, 1.3)};
@@ -164,7 +164,7 @@ TEST_CASE("Derivatives of a torus with two unknown rates are exact", "[tori]") {
   CHECK(report.worst < 1e-7);
 }
 
-TEST_CASE("A torus that its waves no longer hold is told to end", "[tori]") {
+TEST_CASE("A torus that its waves no longer hold is told to end", "[tori][long]") {
   const auto all =
       trace_tori_leaving({cycles_of_mixed(intervals(), 0.3)}, over("p", -0.4, 0.3), {.tolerance = 1e-18});
   REQUIRE(all.size() == 1);
