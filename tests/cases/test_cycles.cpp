@@ -78,7 +78,7 @@ TEST_CASE("An oscillator's cycles lose their symmetry and shed tori where AUTO-0
   }
 }
 
-TEST_CASE("Cycles of a sparse case leave its Hopf point with its period, stable", "[cycles]") {
+TEST_CASE("Cycles of a sparse case leave its Hopf point with its period, stable", "[cycles][numbers]") {
   const Run run("line_cycles");
   REQUIRE(run.traced.size() == 2);
   const auto& points = run.traced[1].branch.points;

@@ -172,7 +172,7 @@ TEST_CASE("Impacts on two walls lose their symmetry where one passage of the exa
   CHECK(std::abs(asymmetry) > 0.1);
 }
 
-TEST_CASE("A flow that is cut into pieces doubles its periods as before", "[cycles][pieces]") {
+TEST_CASE("A flow that is cut into pieces doubles its periods as before", "[cycles][pieces][numbers]") {
   const auto all = traced_of(
       "[model]\nkind = \"piecewise\"\nparameters = { c = 2.5 }\nequations = { x = \"-y - z\", y = \"x + "
       "0.2*y\", z = \"0.2 + z*(x - c)\" }\nstart = { x = 2, y = -3 }\n[model.pieces.right]\nuntil = \"x - "

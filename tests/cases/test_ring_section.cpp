@@ -126,7 +126,7 @@ TEST_CASE("Factors of contacts are read from lists, files and scatter", "[ring s
 }
 
 TEST_CASE("Scattered numbers are the same everywhere, and correlated as they are said to be",
-          "[ring section]") {
+          "[ring section][numbers]") {
   const std::vector<double> few = scattered(3, 1, 0);
   CHECK_THAT(few[0], WithinRel(scattered(3, 1, 0)[0], 1e-15));
   constexpr Index n = 40000;

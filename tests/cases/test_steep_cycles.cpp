@@ -28,7 +28,7 @@ TEST_CASE("Relaxation oscillations that grow at one parameter value are no homoc
 }
 
 TEST_CASE("Coupled pendula go round as AUTO-07p has it, to where they come to rest on their way",
-          "[cycles]") {
+          "[cycles][numbers]") {
   const Run run("coupled_pendula");
   const auto all = cycles_of(run.traced);
   REQUIRE(all.size() == 4);

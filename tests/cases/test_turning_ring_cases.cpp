@@ -170,7 +170,7 @@ TEST_CASE("The amplification of a ring that turns is over that of the equal one 
 
 // All dofs of disk and ring in one balance of the first harmonic, by an independent solver.
 TEST_CASE("The case of a split ring in a turning disk has the amplitudes that it says",
-          "[ring section][rotation]") {
+          "[ring section][rotation][numbers]") {
   const Run run("turning_ring", {"continuation.stop_at=[50.0, 55.0, 58.0]"});
   REQUIRE(run.traced.size() == 1);
   const TracedBranch& found = run.traced[0];

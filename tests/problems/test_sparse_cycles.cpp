@@ -178,7 +178,7 @@ TEST_CASE("Cycles of a stiff field converge by one order less than twice their d
   for (std::size_t i = 0; i < 3; ++i) CHECK_THAT(a[i], WithinAbs(b[i], 1e-4));
 }
 
-TEST_CASE("What decays within an interval has no multiplier, however fine the line is") {
+TEST_CASE("What decays within an interval has no multiplier, however fine the line is", "[numbers]") {
   const auto largest = [](Index points) {
     return multipliers_at_end(cycles_of(std::make_shared<BrusselatorLine>(points), few_intervals(20), 0.52));
   };

@@ -10,6 +10,7 @@
 #include "arcslip/structure/dense.hpp"
 #include "arcslip/structure/spectrum.hpp"
 #include "catch.hpp"
+#include "draws.hpp"
 #include "flutter_cases.hpp"
 #include "monodromy.hpp"
 #include "timed_cycle.hpp"
@@ -166,8 +167,8 @@ TEST_CASE("Random starts of a ring in a flow end in cycles that stay", "[flutter
   const FloquetCycle problem = cycle_in_flow(system);
   const double eta = problem.guess(0, 0.2).unknowns(FloquetCycle::eta);
   RingMotion motion(TimedCycle::unloaded(system), eta, 0.2);
-  for (unsigned seed = 1; seed <= 4; ++seed) {
-    std::mt19937 engine(seed);
+  for (int seed = 1; seed <= draws(4); ++seed) {
+    std::mt19937 engine(static_cast<unsigned>(seed));
     std::uniform_real_distribution<double> draw(-1, 1);
     RingState state = motion.at_rest();
     for (double& one : state.position) one = draw(engine);
