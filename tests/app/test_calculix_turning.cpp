@@ -188,7 +188,7 @@ std::vector<WheelMode> wheel_modes(const Workshop& workshop) {
 
 TEST_CASE(
     "The guide's commands lead from CalculiX to a Campbell diagram, whose K_2 gives other speeds as well",
-    "[export][numbers][outside][rotation]") {
+    "[export][numbers][outside][rotation][long]") {
   const std::vector<std::string> shown = indented(read(export_folder + "/README.md"));
   const Workshop workshop;
   REQUIRE(workshop.run(meshing(shown[0])).status == 0);

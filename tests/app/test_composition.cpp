@@ -376,13 +376,14 @@ TEST_CASE("All tasks compose with a load of five harmonics", "[composition][numb
 }
 TEST_CASE("All tasks compose with masses on springs", "[composition]") { check_kind("masses on springs"); }
 TEST_CASE("All tasks compose with a sector", "[composition]") { check_kind("sector"); }
-TEST_CASE("All tasks compose with a sector of three contacts", "[composition][numbers]") {
+TEST_CASE("All tasks compose with a sector of three contacts", "[composition][numbers][long]") {
   check_kind("three contacts");
 }
-TEST_CASE("All tasks compose with a sector of three contacts in five harmonics", "[composition][numbers]") {
+TEST_CASE("All tasks compose with a sector of three contacts in five harmonics",
+          "[composition][numbers][long]") {
   check_kind("three contacts, five harmonics");
 }
-TEST_CASE("All tasks compose with lift-off", "[composition][numbers]") { check_kind("lift-off"); }
+TEST_CASE("All tasks compose with lift-off", "[composition][numbers][long]") { check_kind("lift-off"); }
 TEST_CASE("All tasks compose with microslip", "[composition][numbers]") { check_kind("microslip"); }
 TEST_CASE("All tasks compose with a structure without symmetry", "[composition][numbers]") {
   check_kind("without symmetry");
