@@ -164,7 +164,7 @@ TEST_CASE("Derivatives of a torus with two unknown rates are exact", "[tori]") {
   CHECK(report.worst < 1e-7);
 }
 
-TEST_CASE("A torus that its waves no longer hold is told to end", "[tori][long][numbers]") {
+TEST_CASE("A torus that its waves no longer hold is told to end", "[tori][long]") {
   const auto all =
       trace_tori_leaving({cycles_of_mixed(intervals(), 0.3)}, over("p", -0.4, 0.3), {.tolerance = 1e-18});
   REQUIRE(all.size() == 1);
