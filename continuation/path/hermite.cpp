@@ -24,39 +24,43 @@ void Hermite::add(double s, const Vector& value, const Vector& slope) {
 }
 
 /// Value, slope, half the second derivative at x, as far as they are given.
-void Hermite::add(double x, std::array<const Vector*, 3> derivatives, std::size_t count) {
-  std::size_t terms = counts_[places_];
-  for (std::size_t order = 0; order < count; ++order, ++terms) {
+void Hermite::add(double x, std::array<const Vector*, 3> derivatives, Index count) {
+  if (places_ == 0) {
+    terms_.resize(derivatives[0]->size(), most_terms);
+    last_.resize(derivatives[0]->size(), most_terms);
+  }
+  Index terms = counts_[places_];
+  for (Index order = 0; order < count; ++order, ++terms) {
     // In place, from the highest order down: each needs what was its lower neighbour.
-    last_[terms] = *derivatives[0];
-    for (std::size_t j = 1; j <= terms; ++j) {
-      const std::size_t place = terms - j;
+    last_.col(terms) = *derivatives[0];
+    for (Index j = 1; j <= terms; ++j) {
+      const Index place = terms - j;
       if (j <= order) {
-        last_[place] = *derivatives[j];
+        last_.col(place) = *derivatives[static_cast<std::size_t>(j)];
       } else {
-        last_[place] = (last_[place + 1] - last_[place]) / (x - nodes_[place]);
+        last_.col(place) = (last_.col(place + 1) - last_.col(place)) / (x - node(place));
       }
     }
-    nodes_[terms] = x;
-    terms_[terms] = last_[0];
+    nodes_[static_cast<std::size_t>(terms)] = x;
+    terms_.col(terms) = last_.col(0);
   }
   counts_[++places_] = terms;
 }
 
 void Hermite::at(double s, std::size_t places, Vector& out) const {
   const double x = variable(s);
-  std::size_t k = counts_[places] - 1;
-  out = terms_[k];
-  while (k-- > 0) out = terms_[k] + (x - nodes_[k]) * out;
+  Index k = counts_[places] - 1;
+  out = terms_.col(k);
+  while (k-- > 0) out = terms_.col(k) + (x - node(k)) * out;
 }
 
 void Hermite::added(double s, std::size_t places, Vector& out) const {
   const double x = variable(s);
-  const std::size_t before = counts_[places - 1];
-  std::size_t k = counts_[places] - 1;
-  out = terms_[k].cwiseAbs();
-  while (k-- > before) out = terms_[k].cwiseAbs() + std::abs(x - nodes_[k]) * out;
-  for (std::size_t i = 0; i < before; ++i) out *= std::abs(x - nodes_[i]);
+  const Index before = counts_[places - 1];
+  Index k = counts_[places] - 1;
+  out = terms_.col(k).cwiseAbs();
+  while (k-- > before) out = terms_.col(k).cwiseAbs() + std::abs(x - node(k)) * out;
+  for (Index i = 0; i < before; ++i) out *= std::abs(x - node(i));
 }
 
 }  // namespace arcslip::continuation

@@ -35,17 +35,21 @@ class Polyline {
     }
     extent_ = high - low;
     for (std::size_t piece = 0; piece + 1 < all.size(); ++piece) {
-      result_.push_back(branch.points[piece]);
+      take(branch.points[piece], all[piece]);
       const BranchPoint& next = branch.points[piece + 1];
       const bool is_one = next.regime == branch.points[piece].regime || next.type == PointType::regime_switch;
       const Coordinates size = (all[piece + 1] - all[piece]).abs().max(least * extent_).min(seen * extent_);
       if (is_one && next.arclength > branch.points[piece].arclength)
         fill({piece, 0, 1, all[piece], all[piece + 1], size}, 0);
     }
-    result_.push_back(branch.points.back());
+    take(branch.points.back(), all.back());
   }
 
-  std::vector<BranchPoint> take() { return std::move(result_); }
+  DrawnPoints result() {
+    const Index rows = std::ssize(points_);
+    const Index columns = std::ssize(values_) / rows;
+    return {std::move(points_), Eigen::Map<const Matrix>(values_.data(), columns, rows).transpose()};
+  }
 
  private:
   struct Segment {
@@ -55,6 +59,11 @@ class Polyline {
     const Coordinates& end;
     const Coordinates& size;  ///< of the whole piece, as far as it is seen at once
   };
+
+  void take(BranchPoint point, const Coordinates& at) {
+    points_.push_back(std::move(point));
+    values_.insert(values_.end(), at.begin() + 1, at.begin() + at.size() / 2);
+  }
 
   Coordinates coordinates(const BranchPoint& point) {
     const std::vector<double>& values = drawn_(point);
@@ -72,7 +81,7 @@ class Polyline {
     const Coordinates here = coordinates(point);
     if (halvings >= most_halvings || is_straight(segment, here)) return;
     fill({segment.piece, segment.from, middle, segment.begin, here, segment.size}, halvings + 1);
-    result_.push_back(std::move(point));
+    take(std::move(point), here);
     fill({segment.piece, middle, segment.to, here, segment.end, segment.size}, halvings + 1);
   }
 
@@ -110,14 +119,22 @@ class Polyline {
   InterpolatedBranch curve_;
   Coordinates extent_;
   Coordinates per_size_, middle_, end_, off_;  ///< of the last segment that was looked at
-  std::vector<BranchPoint> result_;
+  std::vector<BranchPoint> points_;
+  std::vector<double> values_;  ///< of one after the other
 };
 
 }  // namespace
 
-std::vector<BranchPoint> polyline(const Branch& branch, Index parameter, const Drawn& drawn) {
-  if (branch.points.size() < 2) return branch.points;
-  return Polyline(branch, parameter, drawn).take();
+DrawnPoints polyline(const Branch& branch, Index parameter, const Drawn& drawn) {
+  if (branch.points.size() < 2) {
+    DrawnPoints all{branch.points, {}};
+    for (const BranchPoint& point : branch.points) {
+      const std::vector<double>& values = drawn(point);
+      all.values = Eigen::Map<const Vector>(values.data(), std::ssize(values)).transpose();
+    }
+    return all;
+  }
+  return Polyline(branch, parameter, drawn).result();
 }
 
 }  // namespace arcslip::continuation

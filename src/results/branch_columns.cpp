@@ -10,7 +10,7 @@ Columns::Columns(const TracedBranch& traced, BranchTable::Detail detail)
       is_drawn_(detail == BranchTable::Detail::drawn),
       request_(*traced.request),
       points_(traced.branch.points) {
-  if (detail == BranchTable::Detail::full) told_ = traced.told.get();
+  told_ = (is_drawn_ ? traced.drawn : traced.told).get();
   names_ = problem_.parameter_names();
   parameters_ = static_cast<Index>(names_.size());
   if (traced.curve) moved_ = traced.curve->active();

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 
 #include "arcslip/results/results.hpp"
@@ -23,6 +25,31 @@ bool tells_stability(const TracedBranch& traced) {
 constexpr std::size_t leading = 4;      // columns: branch, point, type, regime
 constexpr std::ptrdiff_t trailing = 3;  // arclength, iterations, residual
 constexpr const char* no_stability = ",-1";
+
+/// The numbers of a column, of which many are the same as in the row before.
+class NumberColumn {
+ public:
+  /// With a comma before it; valid until the next call.
+  std::string_view text(double value, BranchTable::Detail detail) {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    if (size_ > 0 && bits == bits_) return {text_.data(), size_};
+    bits_ = bits;
+    char* end = text_.data();
+    *end++ = ',';
+    if (detail == BranchTable::Detail::full) {
+      end = fmt::format_to(end, FMT_COMPILE("{}"), value);  // the shortest text that reads as the same number
+    } else {
+      end = std::to_chars(end, text_.end(), value, std::chars_format::general, 10).ptr;
+    }
+    size_ = static_cast<std::size_t>(end - text_.data());
+    return {text_.data(), size_};
+  }
+
+ private:
+  std::uint64_t bits_ = 0;  ///< of the last one
+  std::array<char, 32> text_{};
+  std::size_t size_ = 0;
+};
 
 std::vector<std::string> fields(std::string_view row) {
   std::vector<std::string> all(1);
@@ -59,25 +86,18 @@ std::string BranchTable::header() const {
 std::string BranchTable::rows(std::size_t number, const TracedBranch& traced, Detail detail) const {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  const auto number_to = [&](double value) {
-    if (detail == Detail::full) {
-      fmt::format_to(out, FMT_COMPILE(",{}"), value);  // the shortest text that reads as the same number
-    } else {
-      std::array<char, 32> digits;
-      const auto end = std::to_chars(digits.begin(), digits.end(), value, std::chars_format::general, 10).ptr;
-      text.push_back(',');
-      text.append(digits.begin(), end);
-    }
-  };
   Columns columns(traced, detail);
   const PhysicalColumns physical(traced);
   std::vector<Index> places;
   for (const std::string& name : names_) places.push_back(columns.find(name));
+  std::vector<NumberColumn> numbers(names_.size() + trailing + physical.names().size());
   for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
     const BranchPoint& point = traced.branch.points[i];
     fmt::format_to(out, FMT_COMPILE("{},{},{},{}"), number, i, point.type_name(),
                    traced.base.problem->describe(point.regime));
     const std::vector<double>& values = columns.values(point);
+    auto column = numbers.begin();
+    const auto number_to = [&](double value) { text.append(column++->text(value, detail)); };
     for (const Index place : places)
       number_to(place < 0 ? std::nan("") : values[static_cast<std::size_t>(place)]);
     if (stability_) fmt::format_to(out, ",{}", point.unstable);

@@ -35,14 +35,16 @@ constexpr std::size_t most_curve_rows = 30'000;  // of more, nothing is seen bet
 
 /// The branch as a polyline that looks like the curve.
 TracedBranch as_drawn(const TracedBranch& traced) {
-  TracedBranch drawn = traced;
   Columns columns(traced, BranchTable::Detail::drawn);
-  drawn.branch.points = continuation::polyline(
+  continuation::DrawnPoints found = continuation::polyline(
       traced.branch,
       continuation::index_of(traced.problem().parameter_names(), traced.request->options.parameter),
       [&](const continuation::BranchPoint& point) -> const std::vector<double>& {
         return columns.values(point);
       });
+  TracedBranch drawn{traced.request, traced.base, traced.curve, {}};
+  drawn.branch.points = std::move(found.points);
+  drawn.drawn = std::make_shared<const Matrix>(std::move(found.values));
   return drawn;
 }
 

@@ -44,10 +44,10 @@ Branch filled(const Problem& problem, const Branch& branch, Index parameter) {
   Vector observed;
   Branch result;
   result.points = polyline(branch, parameter, [&](const BranchPoint& point) -> const std::vector<double>& {
-    problem.observe(point.unknowns, point.parameters, point.regime, observed);
-    values.assign(observed.begin(), observed.end());
-    return values;
-  });
+                    problem.observe(point.unknowns, point.parameters, point.regime, observed);
+                    values.assign(observed.begin(), observed.end());
+                    return values;
+                  }).points;
   return result;
 }
 

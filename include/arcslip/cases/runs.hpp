@@ -56,6 +56,8 @@ struct TracedBranch {
   /// What tables say of its points, where that is known already: a row for each, a column for each name, and
   /// maybe more.
   std::shared_ptr<const Matrix> told = nullptr;
+  /// The same of tables that pictures are drawn from.
+  std::shared_ptr<const Matrix> drawn = nullptr;
   /// Of the solutions that it was traced from, where all were asked for.
   std::shared_ptr<const problems::SolutionCount> solutions = nullptr;
   /// Of two parameters, in place of points.

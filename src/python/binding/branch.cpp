@@ -78,10 +78,10 @@ py::dict sampled_by(const BranchHandle& handle, const Samples& samples) {
 py::dict drawn(const BranchHandle& handle) {
   return handle.heard([&] {
     Columns columns(handle.traced(), Detail::drawn);
-    const auto points = continuation::polyline(
+    const auto drawn = continuation::polyline(
         handle.branch(), handle.parameter(),
         [&](const BranchPoint& point) -> const std::vector<double>& { return columns.values(point); });
-    return columns_of(handle.tabulate(points, Detail::drawn));
+    return columns_of(handle.tabulate(drawn.points, Detail::drawn));
   });
 }
 

@@ -39,18 +39,21 @@ class Hermite {
   void added(double s, std::size_t places, Vector& out) const;
 
   /// The coefficient of the cubic through two places.
-  const Vector& cubic() const { return terms_[3]; }
+  auto cubic() const { return terms_.col(3); }
 
  private:
   double variable(double s) const;
-  void add(double x, std::array<const Vector*, 3> derivatives, std::size_t count);
+  double node(Index term) const { return nodes_[static_cast<std::size_t>(term)]; }
+  void add(double x, std::array<const Vector*, 3> derivatives, Index count);
 
   std::optional<Corner> corner_;
   std::size_t places_ = 0;
-  std::array<std::size_t, most_places + 1> counts_{};  // of terms, by places
-  std::array<double, 2 * most_places + 1> nodes_{};
-  std::array<Vector, 2 * most_places + 1> terms_;
-  std::array<Vector, 2 * most_places + 1> last_;  // divided differences that end at the last node, by order
+  static constexpr std::size_t most_terms = 2 * most_places + 1;
+
+  std::array<Index, most_places + 1> counts_{};  // of terms, by places
+  std::array<double, most_terms> nodes_{};
+  Matrix terms_;  // in columns
+  Matrix last_;   // divided differences that end at the last node, by order
   std::array<Vector, 2> scaled_;
 };
 
