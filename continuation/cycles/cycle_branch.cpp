@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -138,7 +139,7 @@ class GrowthWatch {
   GrowthWatch(const OrbitProblem& problem, const TraceOptions& options, double tolerance)
       : problem_(problem),
         options_(options),
-        nearly_(0.01 * tolerance),
+        nearly_(std::min(1e-8, 0.01 * tolerance)),
         parameter_(index_of(problem.parameter_names(), options.parameter)) {}
 
   bool goes_on(const BranchPoint& point) {
@@ -162,12 +163,12 @@ class GrowthWatch {
            problem_.least_speed(point.unknowns, point.parameters, point.regime) > rest;
   }
 
-  /// A sentence.
+  /// A sentence, with as many digits of the parameter as are known.
   std::string told() const {
     return fmt::format(
         "the period grows without bound, past {:.6g}: an orbit that begins and ends on an equilibrium lies "
-        "at {} = {:.10g}",
-        last_period_, options_.parameter, value_);
+        "at {} = {:.{}g}",
+        last_period_, options_.parameter, value_, static_cast<int>(std::ceil(-std::log10(nearly_))));
   }
 
  private:
