@@ -25,7 +25,8 @@ bool Tracer::meets(const CurvePoint& point) const {
 double Tracer::longest_step() const {
   constexpr double to_next = 1.4;  // of the way between the last two folds
   const bool winds = state_.arclength - state_.fold < 2 * state_.winding;
-  return winds ? std::min(options_.max_step, to_next * state_.winding) : options_.max_step;
+  return winds ? std::clamp(to_next * state_.winding, options_.min_step, options_.max_step)
+               : options_.max_step;
 }
 
 void Tracer::take_events(const Signs& before) {
