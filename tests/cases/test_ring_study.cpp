@@ -243,7 +243,7 @@ TEST_CASE("Patterns are those of their numbers", "[ring study]") {
   CHECK(same(listed.branches[1].problem.system.contacts, contacts("pattern = 2\n")));
 }
 
-TEST_CASE("Quantiles of patterns are those of their responses, traced one by one", "[ring study][numbers]") {
+TEST_CASE("Quantiles of patterns are those of their responses, traced one by one", "[ring study]") {
   const TemporaryFolder folder;
   const std::string text = beams_of_six + uneven;
   constexpr std::size_t patterns = 10;
