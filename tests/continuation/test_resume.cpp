@@ -28,11 +28,7 @@ void check_resume(const Problem& problem, const Guess& guess, TraceOptions optio
   write(text, *first.checkpoint);
   options.max_points = 100000;
   const Branch rest = resume(problem, read_checkpoint(text), options);
-  CHECK(rest.stop == whole.stop);
-  REQUIRE(first.points.size() + rest.points.size() == whole.points.size());
-  for (std::size_t i = 0; i < first.points.size(); ++i) check_same(first.points[i], whole.points[i]);
-  for (std::size_t i = 0; i < rest.points.size(); ++i)
-    check_same(rest.points[i], whole.points[first.points.size() + i]);
+  check_gone_on(first, rest, whole);
 }
 
 }  // namespace
