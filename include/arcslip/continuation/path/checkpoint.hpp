@@ -63,8 +63,9 @@ struct Progress {
   double arclength = 0;               ///< from the start to here
   CurvePoint start;                   ///< which a closed loop comes back to
   std::map<std::string, long> found;  ///< special points so far, by type
-  double fold = std::numeric_limits<double>::quiet_NaN();  ///< arclength of the last one
-  double winding = 0;           ///< from the one before to it; 0 where it is the first
+  /// Arclength of the last fold, NaN before the first, and the way to it from the one before, 0 without one.
+  double fold = std::numeric_limits<double>::quiet_NaN();
+  double winding = 0;
   double last_value = 0;        ///< of the parameter, where the last step began
   double last_chord = 0;        ///< of the last step
   std::vector<double> taken;    ///< values of the parameter that have their point here
