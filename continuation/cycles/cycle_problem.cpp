@@ -92,28 +92,21 @@ double CycleProblem::given_duration(const Vector& p, Vector* by_parameters) cons
 }
 
 ComplexVector CycleProblem::found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const {
-  if (is_trigonometric()) {
-    Vector unknowns;
-    return on_intervals(u, p, regime, unknowns)->found_multipliers(unknowns, p, {});
-  }
-  if (field().sparse()) return largest_multipliers(u, p, regime);
-  std::vector<Matrix> factors;
-  if (!transfers(u, p, regime, factors)) return {};
-  if (!has_duration()) return continuation::log_multipliers(factors);
-  Matrix velocities;
-  if (!find_velocities(u, p, velocities)) return {};
-  return log_multipliers_beside(factors, velocities);
+  if (!is_trigonometric()) return PeriodicOrbit::found_multipliers(u, p, regime);
+  Vector unknowns;
+  return on_intervals(u, p, regime, unknowns)->found_multipliers(unknowns, p, {});
 }
 
-ComplexVector CycleProblem::largest_multipliers(const Vector& u, const Vector& p,
-                                                const Regime& regime) const {
+ComplexVector CycleProblem::multipliers_by(const Vector& u, const Vector& p,
+                                           const SparseMatrix& jacobian) const {
   constexpr Index count = 20;
-  SparseMatrix jacobian;
-  Evaluation out;
-  out.sparse_jacobian = &jacobian;
   Matrix velocities;
-  if (!evaluate(u, p, regime, out) || (has_duration() && !find_velocities(u, p, velocities))) return {};
-  return largest_log_multipliers(jacobian, field().size(), intervals(), degree(), velocities, count);
+  if (has_duration() && !find_velocities(u, p, velocities)) return {};
+  if (field().sparse())
+    return largest_log_multipliers(jacobian, field().size(), intervals(), degree(), velocities, count);
+  const std::vector<Matrix> factors = transfers(jacobian);
+  return has_duration() ? log_multipliers_beside(factors, velocities)
+                        : continuation::log_multipliers(factors);
 }
 
 bool CycleProblem::find_velocities(const Vector& u, const Vector& p, Matrix& out) const {

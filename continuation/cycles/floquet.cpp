@@ -15,8 +15,9 @@ namespace {
 constexpr double plain = 1e4;  // ratio of stretches of which a product loses no digits that matter
 
 /// The largest stretch over the smallest, about: of pivots, each the largest entry that is left.
-double spread(Matrix matrix) {
-  double* const a = matrix.data();
+double spread(const Matrix& matrix, Matrix& work) {
+  work = matrix;
+  double* const a = work.data();
   const Index n = matrix.rows();
   double most = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -42,21 +43,25 @@ double spread(Matrix matrix) {
   return least > 0 ? most / least : std::numeric_limits<double>::infinity();
 }
 
-/// The same product of fewer factors, where digits allow it.
-std::vector<Matrix> gathered(const std::vector<Matrix>& factors) {
-  std::vector<Matrix> result;
-  Matrix product;
-  for (const Matrix& factor : factors) {
-    const bool begins = result.empty();
-    if (!begins) product = factor.lazyProduct(result.back());
-    if (!begins && spread(product) < plain) {
-      result.back().swap(product);
+/// A product of fewer factors, where digits allow it.
+class Gathered {
+ public:
+  /// The next factor.
+  void add(const Matrix& factor) {
+    if (!factors_.empty()) product_.noalias() = factor.lazyProduct(factors_.back());
+    if (!factors_.empty() && spread(product_, work_) < plain) {
+      factors_.back().swap(product_);
     } else {
-      result.push_back(factor);
+      factors_.emplace_back(factor);
     }
   }
-  return result;
-}
+  const std::vector<Matrix>& factors() const { return factors_; }
+
+ private:
+  std::vector<Matrix> factors_;
+  Matrix product_;
+  Matrix work_;
+};
 
 /// ln of the eigenvalues of e^log times a matrix.
 void append_logs(const Matrix& matrix, double log, std::vector<Complex>& out) {
@@ -98,11 +103,9 @@ std::vector<Index> ends(const Matrix& turn) {
   return result;
 }
 
-}  // namespace
-
-ComplexVector log_multipliers(const std::vector<Matrix>& factors) {
-  if (!std::all_of(factors.begin(), factors.end(), [](const Matrix& x) { return x.allFinite(); })) return {};
-  const std::vector<Matrix> few = gathered(factors);
+/// Of few factors.
+ComplexVector logs_of(const std::vector<Matrix>& few) {
+  if (!std::all_of(few.begin(), few.end(), [](const Matrix& x) { return x.allFinite(); })) return {};
   const Index n = few.front().rows();
   std::vector<Complex> logs;
   if (few.size() == 1) {
@@ -115,24 +118,59 @@ ComplexVector log_multipliers(const std::vector<Matrix>& factors) {
       last = sweep(few, basis);
       if (std::ssize(ends(last.turn)) == n) break;
     }
-    Index first = 0;
+    Index begin = 0;
     for (const Index end : ends(last.turn)) {
-      const Index size = end - first;
+      const Index size = end - begin;
       Matrix product = Matrix::Identity(size, size);
       double log = 0;
       for (const Matrix& triangle : last.triangles) {
-        product = triangle.block(first, first, size, size) * product;
+        product = triangle.block(begin, begin, size, size) * product;
         const double length = product.norm();
         if (!(length > 0)) break;
         product /= length;
         log += std::log(length);
       }
-      append_logs(last.turn.block(first, first, size, size) * product, log, logs);
-      first = end;
+      append_logs(last.turn.block(begin, begin, size, size) * product, log, logs);
+      begin = end;
     }
   }
   return Eigen::Map<const ComplexVector>(logs.data(), std::ssize(logs));
 }
+
+}  // namespace
+
+ComplexVector log_multipliers(const std::vector<Matrix>& factors) {
+  Gathered few;
+  for (const Matrix& factor : factors) few.add(factor);
+  return logs_of(few.factors());
+}
+
+namespace {
+
+/// X <- X (1 - 2 v v^T); matrices are small, and plain loops take less than expressions of any size would.
+void mirror_from_right(Matrix& x, const double* v) {
+  const Index n = x.rows();
+  for (Index r = 0; r < n; ++r) {
+    double* const row = x.data() + r;
+    double product = 0;
+    for (Index c = 0; c < n; ++c) product += row[c * n] * v[c];
+    for (Index c = 0; c < n; ++c) row[c * n] -= 2 * product * v[c];
+  }
+}
+
+/// (1 - 2 v v^T) X without the first row and the first column.
+void mirror_from_left(const Matrix& x, const double* v, Matrix& out) {
+  const Index n = x.rows();
+  double* to = out.data();
+  for (Index c = 1; c < n; ++c) {
+    const double* const column = x.data() + c * n;
+    double product = 0;
+    for (Index r = 0; r < n; ++r) product += column[r] * v[r];
+    for (Index r = 1; r < n; ++r) *to++ = column[r] - 2 * product * v[r];
+  }
+}
+
+}  // namespace
 
 ComplexVector log_multipliers_beside(const std::vector<Matrix>& factors, const Matrix& along) {
   const Index n = along.rows();
@@ -144,21 +182,17 @@ ComplexVector log_multipliers_beside(const std::vector<Matrix>& factors, const M
     mirror(0) += std::copysign(1, mirror(0));
     mirror.normalize();
   }
-  std::vector<Matrix> reduced;
-  reduced.reserve(factors.size());
+  Gathered reduced;
   Matrix turned(n, n);
-  Vector image(n);
+  Matrix beside(n - 1, n - 1);
   for (std::size_t j = 0; j < factors.size(); ++j) {
-    const auto before = mirrors.col(static_cast<Index>(j));
-    const auto after = mirrors.col(static_cast<Index>(j) + 1);
     turned = factors[j];
-    image = 2 * turned.lazyProduct(before);
-    turned -= image.lazyProduct(before.transpose());
-    image = 2 * turned.transpose().lazyProduct(after);
-    turned -= after.lazyProduct(image.transpose());
-    reduced.emplace_back(turned.bottomRightCorner(n - 1, n - 1));
+    const double* const before = mirrors.col(static_cast<Index>(j)).data();
+    mirror_from_right(turned, before);
+    mirror_from_left(turned, before + n, beside);
+    reduced.add(beside);
   }
-  return log_multipliers(reduced);
+  return logs_of(reduced.factors());
 }
 
 ComplexVector exponents(const ComplexVector& logs, double duration) {

@@ -12,7 +12,7 @@ namespace arcslip::continuation {
 namespace {
 
 /// Of the integral of (u/scale) . (du_0/ds/scale), over that of the square of the latter.
-Vector phase_weights(const OrbitMesh& mesh, const Matrix& orbit, const Vector& scale) {
+Vector phase_weights(const OrbitMesh& mesh, const Eigen::Ref<const Matrix>& orbit, const Vector& scale) {
   const CollocationRule& rule = mesh.rule();
   const Index m = rule.degree();
   const Index n = orbit.rows();
@@ -127,9 +127,11 @@ double OrbitProblem::phase_grip(const Vector& u, const Regime& regime) const {
   const OrbitFrame& at = frame(regime);
   if (at.phase.size() == 0) return 1;
   constexpr double still = 1e-6;
-  const Matrix values = orbit(u);
-  const Vector moves = values.rowwise().maxCoeff() - values.rowwise().minCoeff();
-  if (moves.cwiseQuotient(at.range).maxCoeff() < still) return 1;
+  const auto values = orbit(u);
+  double moves = 0;
+  for (Index r = 0; r < values.rows(); ++r)
+    moves = std::max(moves, (values.row(r).maxCoeff() - values.row(r).minCoeff()) / at.range(r));
+  if (moves < still) return 1;
   const Vector own = phase_weights(at.mesh, values, at.scale);
   return std::abs(own.dot(at.phase)) / (own.norm() * at.phase.norm());
 }

@@ -37,6 +37,20 @@ void OrbitProblem::build_block(const Matrix& orbit, const Vector& p) {
   }
 }
 
+void OrbitProblem::build_weights(const CollocationRule& rule) {
+  values_of_points_ = rule.values().transpose();
+  slopes_of_points_ = rule.derivatives().transpose();
+  weights_.resize(degree() * block_.nonZeros(), degree() + 1);
+  const int* const begins = block_.outerIndexPtr();
+  for (Index k = 0; k <= degree(); ++k) {
+    for (Index c = 0, at = 0; c < block_.cols(); ++c) {
+      const Index count = begins[c + 1] - begins[c];
+      for (Index i = 0; i < degree(); ++i, at += count)
+        weights_.col(k).segment(at, count).setConstant(rule.values()(i, k));
+    }
+  }
+}
+
 /// Columns of nodes hold the rows of each interval that they are on, those of the ends the conditions as
 /// well; that of T holds all but these. The conditions stand first and each Gauss point beside the node after
 /// it, as a march in time would find them: pivots from the diagonal keep what decays from growing.

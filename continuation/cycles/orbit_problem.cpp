@@ -22,6 +22,7 @@ OrbitProblem::OrbitProblem(std::shared_ptr<const Field> field, bool has_duration
 void OrbitProblem::begin(const OrbitMesh& mesh, const Matrix& orbit, const Vector& p) {
   add_frame(mesh, orbit, p);
   build_block(orbit, p);
+  build_weights(mesh.rule());
   build_pattern();
 }
 
@@ -47,8 +48,8 @@ void OrbitProblem::find_places(const OrbitFrame& frame, const Vector& u, double 
     const Index i = q % m;
     scratch.times(q) =
         (frame.mesh.borders()(interval) + frame.mesh.length(interval) * rule.points()(i)) * duration;
-    const double* const values = scratch.values.data() + i * (m + 1);
-    const double* const derivatives = scratch.derivatives.data() + i * (m + 1);
+    const double* const values = values_of_points_.data() + i * (m + 1);
+    const double* const derivatives = slopes_of_points_.data() + i * (m + 1);
     const double* node = u.data() + interval * m * n;
     for (Index r = 0; r < n; ++r, ++node) {
       double place = 0;
@@ -168,7 +169,7 @@ void OrbitProblem::fill_blocks(const OrbitFrame& frame, double factor, Index int
     double* const begin = out.valuePtr() + (is_end ? end_entries() : 0);
     const double* const slopes = rule.derivatives().col(k).data();
     const double* blocks = scratch.blocks.data();
-    const double* weights = scratch.weights.col(k).data();
+    const double* weights = weights_.col(k).data();
     for (Index c = 0; c < n; ++c) {
       const Index count = begins[c + 1] - begins[c];
       double* const column = begin + starts[c] + (is_second ? m * count : 0);
@@ -234,7 +235,7 @@ bool OrbitProblem::evaluate(const Vector& u, const Vector& p, const Regime& regi
   if (out.sparse_jacobian != nullptr && out.sparse_jacobian->nonZeros() != pattern_.nonZeros())
     *out.sparse_jacobian = pattern_;
   const bool derivatives = out.sparse_jacobian != nullptr || out.parameter_jacobian != nullptr;
-  Scratch scratch(*this, p.size());
+  Scratch& scratch = Scratch::of(*this, p.size());
   for (Index first = 0; first < intervals(); first += scratch.together) {
     if (!at_points(at, u, p, length, first, derivatives, scratch)) return false;
     if (out.parameter_jacobian != nullptr) change_with_parameters(length, p, scratch);
@@ -252,7 +253,7 @@ bool OrbitProblem::second(const Vector& u, const Vector& p, const Regime& regime
   const CollocationRule& rule = at.mesh.rule();
   const Index n = field_->size();
   const Index m = degree();
-  Scratch scratch(*this, p.size());
+  Scratch& scratch = Scratch::of(*this, p.size());
   Vector place;
   Vector row(n + p.size());
   Vector direction(n);

@@ -23,12 +23,32 @@ struct PeriodicOrbit::Last {
   ComplexVector logs;
 };
 
-ComplexVector PeriodicOrbit::log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const {
+PeriodicOrbit::Last& PeriodicOrbit::last() {
   thread_local Last last;
-  const bool known =
-      last.problem == number_ && last.regime == regime && last.unknowns == u && last.parameters == p;
-  if (!known) last = {number_, u, p, regime, found_multipliers(u, p, regime)};
-  return last.logs;
+  return last;
+}
+
+bool PeriodicOrbit::is_last(const Vector& u, const Vector& p, const Regime& regime) const {
+  const Last& known = last();
+  return known.problem == number_ && known.regime == regime && known.unknowns == u && known.parameters == p;
+}
+
+ComplexVector PeriodicOrbit::log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const {
+  if (!is_last(u, p, regime)) last() = {number_, u, p, regime, found_multipliers(u, p, regime)};
+  return last().logs;
+}
+
+void PeriodicOrbit::take_jacobian(const Vector& u, const Vector& p, const Regime& regime,
+                                  const SparseMatrix& jacobian) const {
+  if (!is_last(u, p, regime)) last() = {number_, u, p, regime, multipliers_by(u, p, jacobian)};
+}
+
+ComplexVector PeriodicOrbit::found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const {
+  SparseMatrix jacobian;
+  Evaluation out;
+  out.sparse_jacobian = &jacobian;
+  if (!evaluate(u, p, regime, out)) return {};
+  return multipliers_by(u, p, jacobian);
 }
 
 bool PeriodicOrbit::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,

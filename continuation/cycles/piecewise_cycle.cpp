@@ -193,11 +193,10 @@ bool PiecewiseCycle::end_conditions(const Vector& left, const Vector& right, con
 }
 
 /// In coordinates on the border that a piece ends on.
-ComplexVector PiecewiseCycle::found_multipliers(const Vector& u, const Vector& p,
-                                                const Regime& regime) const {
-  std::vector<Matrix> all;
+ComplexVector PiecewiseCycle::multipliers_by(const Vector& u, const Vector& p,
+                                             const SparseMatrix& jacobian) const {
   if (n_ == 1) return ComplexVector(0);
-  if (!transfers(u, p, regime, all)) return {};
+  const std::vector<Matrix> all = transfers(jacobian);
   Vector velocity(n_);
   Vector level(1);
   Vector next(n_);

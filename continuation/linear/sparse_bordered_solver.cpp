@@ -32,6 +32,7 @@ double scale_to_one(double x) {
 
 SparseBorderedSolver::SparseBorderedSolver(Index size, Index borders)
     : BorderedSolver(size, borders),
+      largest_(size),
       row_scale_(size + borders),
       right_hand_side_(size + borders),
       solution_(size + borders),
@@ -98,11 +99,19 @@ void SparseBorderedSolver::set_jacobian(const SparseMatrix& jacobian, const Vect
     throw std::invalid_argument("set_jacobian: a compressed matrix of the solver's size is needed");
   }
   if (!same_pattern(jacobian)) set_pattern(jacobian);
+  largest_.setZero();
+  double* __restrict const largest = largest_.data();
   for (Index j = 0; j < size(); ++j) {
     const int begin = jacobian.outerIndexPtr()[j];
     const int count = jacobian.outerIndexPtr()[j + 1] - begin;
-    double* ours = matrix_.valuePtr() + matrix_.outerIndexPtr()[j];
-    for (int k = 0; k < count; ++k) ours[k] = jacobian.valuePtr()[begin + k] * column_scale(j);
+    const double* __restrict const values = jacobian.valuePtr() + begin;
+    const int* __restrict const rows = jacobian.innerIndexPtr() + begin;
+    double* __restrict const ours = matrix_.valuePtr() + matrix_.outerIndexPtr()[j];
+    const double scale = column_scale(j);
+    for (int k = 0; k < count; ++k) {
+      ours[k] = values[k] * scale;
+      largest[rows[k]] = std::max(largest[rows[k]], std::abs(ours[k]));
+    }
   }
 }
 
@@ -121,16 +130,20 @@ void SparseBorderedSolver::set_borders() {
 
 /// Powers of two, exact. False if a row is zero.
 bool SparseBorderedSolver::scale_rows(double weight_of_last) {
-  const double* __restrict const values = matrix_.valuePtr();
-  const int* __restrict const rows = matrix_.innerIndexPtr();
-  const Index count = matrix_.nonZeros();
-  row_scale_.setZero();
-  double* __restrict const scales = row_scale_.data();
-  double* __restrict const scaled = scaled_.valuePtr();
-  for (Index k = 0; k < count; ++k) scales[rows[k]] = std::max(scales[rows[k]], std::abs(values[k]));
+  row_scale_.head(size()) = largest_;
+  for (Index k = 0; k < borders(); ++k) {
+    row_scale_.head(size()) = row_scale_.head(size()).cwiseMax(columns().col(k).cwiseAbs());
+    row_scale_(size() + k) =
+        std::max(rows().row(k).lpNorm<Eigen::Infinity>(), corner().row(k).lpNorm<Eigen::Infinity>());
+  }
   if (!(row_scale_.minCoeff() > 0)) return false;
   for (double& scale : row_scale_) scale = scale_to_one(scale);
   for (const Index row : last_rows_) row_scale_(row) *= weight_of_last;
+  const double* __restrict const values = matrix_.valuePtr();
+  const int* __restrict const rows = matrix_.innerIndexPtr();
+  const Index count = matrix_.nonZeros();
+  const double* __restrict const scales = row_scale_.data();
+  double* __restrict const scaled = scaled_.valuePtr();
   for (Index k = 0; k < count; ++k) scaled[k] = values[k] * scales[rows[k]];
   return true;
 }

@@ -94,6 +94,7 @@ bool Corrector::factor(const CurvePoint& point, const Vector& scale, const Vecto
     factored_scale_ = scale;
     factored_unknowns_ = point.unknowns;
     factored_regime_ = point.regime;
+    factored_when_ = work_.evaluations;
   }
   linearization_.fill(*solver_, scale);
   solver_->columns() = linearization_.parameter_jacobian().col(parameter_) * scale(size_);
@@ -130,11 +131,17 @@ double Corrector::solve_correction(double change) {
   return correction_.norm();
 }
 
-bool Corrector::has_factors_at(const CurvePoint& origin, double distance) {
-  constexpr double near = 0.01;  // of the distance
+bool Corrector::has_factors_at(const CurvePoint& origin, double near) {
   if (!has_direction_ || factored_unknowns_.size() == 0 || factored_regime_ != origin.regime) return false;
   before_ = (factored_unknowns_ - origin.unknowns).cwiseQuotient(origin.scale.head(size_));
-  return before_.norm() < near * distance;
+  return before_.norm() < near;
+}
+
+const SparseMatrix* Corrector::jacobian_at(const CurvePoint& point) {
+  constexpr double close = 2;  // tolerances: `close` moves what has been corrected by one
+  const bool is_last =
+      factored_when_ == work_.evaluations && has_factors_at(point, close * options_.tolerance);
+  return is_last ? &linearization_.sparse_jacobian() : nullptr;
 }
 
 /// By the factors at the origin, which are at hand, as far as corrections shrink fast, if they are so short
@@ -178,7 +185,8 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     difference(point, origin, correction_);
     return distance - normal.dot(correction_);
   };
-  const bool approaches = begins_near_ && !to_rounding && has_factors_at(origin, distance);
+  constexpr double near = 0.01;  // of the distance
+  const bool approaches = begins_near_ && !to_rounding && has_factors_at(origin, near * distance);
   if (approaches) begins_near_ = approach(point, origin, normal, distance);
   while (true) {
     if (!evaluate(point)) return Correction::cannot_evaluate;

@@ -216,7 +216,7 @@ bool Tracer::find_events() {
   const CurvePoint& there = step.there;
   if (!step.is_tiny(step.distance) && image_.has_gone_over(there.unknowns, there.tangent, there.scale))
     return false;
-  watch_.look(there);
+  watch_.look(there, corrector_.jacobian_at(there));
   EventSearch search = find_first_events(stepper_, watch_, state_.signs);
   events_ = std::move(search.events);
   if (!search.solved) return false;

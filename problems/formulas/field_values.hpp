@@ -2,6 +2,8 @@
 
 // Fields that are tapes.
 
+#include <algorithm>
+
 #include "arcslip/continuation/cycles/field.hpp"
 #include "arcslip/formulas/tape.hpp"
 #include "numbers.hpp"
@@ -33,31 +35,42 @@ inline bool evaluate_field(const Tape& tape, double t, const Vector& u, const Ve
 /// The same at several places, by a tape of u and p, or of t, u and p where times are given.
 inline bool evaluate_columns(const Tape& tape, const Vector* times, const Matrix& u, const Vector& p,
                              const continuation::FieldColumns& out) {
+  constexpr Index together = 32;  // places: few enough to stay near
   const Index n = tape.results();
   const Index first = times != nullptr ? 1 : 0;
-  Matrix at(first + n + p.size(), u.cols());
-  if (times != nullptr) at.row(0) = times->transpose();
-  at.middleRows(first, n) = u;
-  at.bottomRows(p.size()).colwise() = p;
+  const Index width = first + n + p.size();
   const bool differentiated =
       out.by_unknowns != nullptr || out.by_parameters != nullptr || out.by_time != nullptr;
-  Matrix gradients(at.rows(), differentiated ? n * u.cols() : 0);
-  if (!tape.evaluate(at.data(), u.cols(), out.velocity->data(), differentiated ? gradients.data() : nullptr))
-    return false;
-  /// Those by so many variables from one on.
-  const auto spread = [&](Matrix* by, Index from, Index count) {
+  Numbers at = room(width * std::min(together, u.cols()));
+  Numbers gradients = room(differentiated ? n * std::ssize(at) : 0);
+  Index place = 0;
+  Index count = 0;
+  /// Derivatives by so many variables from one on.
+  const auto spread = [&](Matrix* by, Index from, Index variables) {
     if (by == nullptr) return;
-    double* entry = by->data();
-    for (Index k = 0; k < u.cols(); ++k) {
-      for (Index c = 0; c < count; ++c) {
-        const double* gradient = gradients.data() + k * n * at.rows() + from + c;
-        for (Index r = 0; r < n; ++r, gradient += at.rows()) *entry++ = *gradient;
+    double* entry = by->data() + place * n * variables;
+    for (Index k = 0; k < count; ++k) {
+      for (Index c = 0; c < variables; ++c) {
+        const double* gradient = gradients.data() + k * n * width + from + c;
+        for (Index r = 0; r < n; ++r, gradient += width) *entry++ = *gradient;
       }
     }
   };
-  spread(out.by_time, 0, 1);
-  spread(out.by_unknowns, first, n);
-  spread(out.by_parameters, first + n, p.size());
+  for (; place < u.cols(); place += count) {
+    count = std::min(together, u.cols() - place);
+    double* x = at.data();
+    for (Index k = place; k < place + count; ++k) {
+      if (times != nullptr) *x++ = (*times)(k);
+      x = std::copy_n(u.data() + k * n, n, x);
+      x = std::copy_n(p.data(), p.size(), x);
+    }
+    if (!tape.evaluate(at.data(), count, out.velocity->data() + place * n,
+                       differentiated ? gradients.data() : nullptr))
+      return false;
+    spread(out.by_time, 0, 1);
+    spread(out.by_unknowns, first, n);
+    spread(out.by_parameters, first + n, p.size());
+  }
   return true;
 }
 

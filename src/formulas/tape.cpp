@@ -202,7 +202,8 @@ bool Tape::evaluate(const double* x, Index points, double* values, double* gradi
   constexpr Index lanes = 8;
   const Index size = results();
   for (Index k = 0; k < points;) {
-    const bool many = k + lanes <= points;
+    const bool many = points >= lanes;
+    if (many) k = std::min(k, points - lanes);  // the last ones again
     double* const value = values + k * size;
     double* const gradient = gradients == nullptr ? nullptr : gradients + k * size * variables_;
     if (!(many ? evaluate_lanes<lanes>(x + k * variables_, value, gradient)

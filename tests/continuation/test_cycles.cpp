@@ -146,6 +146,10 @@ TEST_CASE("Points of short steps take little more than one factorisation each", 
     const Solution solution = solve(*all.problem, {point.unknowns, point.parameters, point.regime});
     REQUIRE(solution.outcome == Correction::converged);
     CHECK((solution.unknowns - point.unknowns).lpNorm<Eigen::Infinity>() < 1e-9);
+    ComplexVector anew;  // the point's own are by the Jacobian that was at hand
+    REQUIRE(all.problem->eigenvalues(point.unknowns, point.parameters, point.regime, anew));
+    REQUIRE(point.eigenvalues.size() == anew.size());
+    CHECK((point.eigenvalues - anew).cwiseAbs().maxCoeff() < 1e-8);
   }
 }
 

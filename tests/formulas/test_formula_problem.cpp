@@ -142,6 +142,26 @@ TEST_CASE("Formulas give exact first and second derivatives of a system and its 
   }
 }
 
+TEST_CASE("Formulas at any number of places have the values and derivatives of one by one", "[formulas]") {
+  const problems::FormulaProblem problem(lorenz);
+  Vector p(7);
+  p << 0.7, 0.04, 0.25, 0.5, 0.25, 1.04, 0.987;
+  for (const Index places : {1, 7, 8, 9, 31, 32, 33, 39, 40, 71}) {
+    const Matrix u = Matrix::NullaryExpr(4, places, [](Index r, Index k) { return std::sin(3. * k + r); });
+    Matrix values(4, places), by_u(4, 4 * places), by_p(4, 7 * places);
+    REQUIRE(problem.evaluate_columns(u, p, &values, &by_u, &by_p));
+    for (Index k = 0; k < places; ++k) {
+      Vector value(4);
+      Matrix one_by_u(4, 4), one_by_p(4, 7);
+      const Vector place = u.col(k);
+      REQUIRE(problem.evaluate(place, p, {}, {&value, &one_by_u, &one_by_p}));
+      CHECK(values.col(k) == value);
+      CHECK(by_u.middleCols(4 * k, 4) == one_by_u);
+      CHECK(by_p.middleCols(7 * k, 7) == one_by_p);
+    }
+  }
+}
+
 TEST_CASE("The logistic map doubles its period at r = 3, and its 2-cycle at 1 + sqrt 6", "[formulas]") {
   FormulaSystem map{.kind = FormulaKind::map,
                     .parameters = {{"r", 2}},

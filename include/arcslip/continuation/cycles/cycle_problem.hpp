@@ -60,11 +60,11 @@ class CycleProblem : public PeriodicOrbit {
 
   /// Of sparse fields those of the largest.
   ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const override;
+  ComplexVector multipliers_by(const Vector& u, const Vector& p, const SparseMatrix& jacobian) const override;
 
  private:
   /// At the ends of intervals, n x (N + 1).
   [[nodiscard]] bool find_velocities(const Vector& u, const Vector& p, Matrix& out) const;
-  ComplexVector largest_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
 
   int periods_;
   Vector winding_;

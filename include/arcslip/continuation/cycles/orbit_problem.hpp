@@ -124,9 +124,8 @@ class OrbitProblem : public Problem {
   /// was: 0 where it is one of these, below 0 beyond; 1 where nothing does.
   double apart(const Vector& u, const Regime& regime) const;
 
-  /// du(s_(j+1))/du(s_j) of each interval, n x n. False where the field has no value.
-  [[nodiscard]] bool transfers(const Vector& u, const Vector& p, const Regime& regime,
-                               std::vector<Matrix>& out) const;
+  /// du(s_(j+1))/du(s_j) of each interval, n x n, by the Jacobian at an orbit of a field that is not sparse.
+  std::vector<Matrix> transfers(const SparseMatrix& jacobian) const;
 
   Index size() const override { return field_->size() * nodes() + (has_duration_ ? 1 : 0); }
   std::vector<std::string> parameter_names() const override { return field_->parameter_names(); }
@@ -168,6 +167,7 @@ class OrbitProblem : public Problem {
   /// How many of the conditions one unknown at an end enters.
   Index end_entries() const { return field_->sparse() ? 1 : field_->size(); }
   void build_block(const Matrix& orbit, const Vector& p);
+  void build_weights(const CollocationRule& rule);
   void build_pattern();
   void find_places(const OrbitFrame& frame, const Vector& u, double duration, Index first,
                    Scratch& scratch) const;
@@ -188,6 +188,9 @@ class OrbitProblem : public Problem {
   SparseMatrix block_;           // df/du and the diagonal, n x n
   std::vector<Index> diagonal_;  // where that is in each column of the block
   std::vector<int> places_;      // of the entries of a sparse df/du among those of the block
+  Matrix values_of_points_;      // of the rule, those of a point side by side, and
+  Matrix slopes_of_points_;      // derivatives
+  Matrix weights_;               // of the blocks of an interval's points, see fill_blocks, at each node
   SparseMatrix pattern_;
 };
 

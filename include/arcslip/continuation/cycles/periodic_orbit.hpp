@@ -43,17 +43,25 @@ class PeriodicOrbit : public OrbitProblem {
   PointType pair_crossing() const override { return PointType::neimark_sacker; }
   std::vector<PointType> test_types() const override { return {PointType::period_doubling}; }
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
+  void take_jacobian(const Vector& u, const Vector& p, const Regime& regime,
+                     const SparseMatrix& jacobian) const override;
 
  protected:
   PeriodicOrbit(std::shared_ptr<const Field> field, bool has_duration, bool doubled)
       : OrbitProblem(std::move(field), has_duration), doubled_(doubled) {}
 
-  virtual ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const = 0;
+  virtual ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
+  /// The same on intervals, by the Jacobian there.
+  virtual ComplexVector multipliers_by(const Vector& u, const Vector& p,
+                                       const SparseMatrix& jacobian) const = 0;
   /// How many there may be.
   virtual Index most_multipliers() const { return field().size() - (has_duration() ? 1 : 0); }
 
  private:
   struct Last;
+  static Last& last();
+  bool is_last(const Vector& u, const Vector& p, const Regime& regime) const;
+
   bool doubled_;
   static std::atomic<long> made_;
   long number_ = ++made_;  // which of them this is

@@ -48,6 +48,7 @@ class SparseBorderedSolver final : public BorderedSolver {
 
   SparseMatrix matrix_;  // whole; its rows are multiplied by row_scale_ in scaled_
   SparseMatrix scaled_;
+  Vector largest_;  // entries of J in each row
   Vector row_scale_;
   Vector right_hand_side_;
   Vector solution_;

@@ -122,6 +122,9 @@ class Corrector {
   /// `direction()`.
   Correction linearise(CurvePoint& point, const Vector& normal);
 
+  /// dF/du of a sparse problem at a point that was corrected last, to the tolerance; else null.
+  const SparseMatrix* jacobian_at(const CurvePoint& point);
+
   /// Whether the bordered Jacobian last factored is singular but for rounding.
   bool nearly_singular();
 
@@ -139,7 +142,7 @@ class Corrector {
   [[nodiscard]] bool solve_direction();
   double solve_correction(double change);
   void add_correction(CurvePoint& point, const CurvePoint& origin) const;
-  [[nodiscard]] bool has_factors_at(const CurvePoint& origin, double distance);
+  [[nodiscard]] bool has_factors_at(const CurvePoint& origin, double near);
   [[nodiscard]] bool approach(CurvePoint& point, const CurvePoint& origin, const Vector& normal,
                               double distance);
   void apply(CurvePoint& point, const CurvePoint& origin);
@@ -167,6 +170,7 @@ class Corrector {
   Vector factored_scale_;
   Vector factored_unknowns_;  // where the last factors of a sparse problem are from
   Regime factored_regime_;
+  long factored_when_ = 0;                // at which evaluation
   bool has_direction_ = false;            // whether `direction_` is by these
   bool begins_near_ = false;              // whether the last point's first correction was a short one
   mutable Eigen::VectorX<Index> counts_;  // of the rows' entries

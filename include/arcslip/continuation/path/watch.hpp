@@ -29,8 +29,8 @@ class Watch {
   /// Both are kept by reference.
   Watch(const Problem& problem, const std::vector<UserEvent>& events);
 
-  /// Evaluates all of them at a point.
-  void look(const CurvePoint& point);
+  /// Evaluates all of them at a point, the Jacobian of a sparse problem there may be at hand.
+  void look(const CurvePoint& point, const SparseMatrix* jacobian = nullptr);
 
   const std::vector<double>& functions() const { return functions_; }  ///< tests, events, pieces of events
   const ComplexVector& eigenvalues() const { return eigenvalues_; }    ///< by descending real part, or none

@@ -150,6 +150,11 @@ class Problem {
   /// Fills the values of these functions, one for each type.
   virtual void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const;
 
+  /// Told before `test` and `eigenvalues` are asked for at (u, p), where dF/du of a sparse problem is at hand
+  /// there: what they take from it can be found now.
+  virtual void take_jacobian(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*regime*/,
+                             const SparseMatrix& /*jacobian*/) const {}
+
   /// Typical magnitudes at (u, p), all positive, in which steps and errors are measured: a parameter that
   /// spans decades gives its own value. The default is the value itself, or 1 where that is larger.
   virtual void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const;
