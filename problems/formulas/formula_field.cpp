@@ -34,7 +34,7 @@ bool FormulaField::series(double t, const Matrix& u, const Vector& p, Matrix& ou
 
 double period_of(const Tape& tape, const Vector& p, Vector* by_parameters) {
   double value = 0;
-  Numbers gradient = room(p.size());
+  Numbers gradient(static_cast<std::size_t>(p.size()), 0);
   const bool known = tape.evaluate(p.data(), &value, gradient.data());
   if (by_parameters != nullptr) *by_parameters = Eigen::Map<const Vector>(gradient.data(), p.size());
   return known && value > 0 ? value : std::nan("");

@@ -11,7 +11,10 @@ namespace arcslip::problems {
 using Numbers = boost::container::small_vector<double, 1024>;  // on the stack up to 8 kB
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-inline Numbers room(Index count) { return Numbers(static_cast<std::size_t>(count)); }
+/// Of any values.
+inline Numbers room(Index count) {
+  return Numbers(static_cast<std::size_t>(count), boost::container::default_init);
+}
 
 /// Unknowns, then parameters, as the tapes have them.
 inline Numbers joined(const Vector& u, const Vector& p) {
