@@ -38,8 +38,10 @@ void OrbitProblem::build_block(const Matrix& orbit, const Vector& p) {
 }
 
 void OrbitProblem::build_weights(const CollocationRule& rule) {
-  values_of_points_ = rule.values().transpose();
-  slopes_of_points_ = rule.derivatives().transpose();
+  padded_values_.setZero((degree() + fours - 1) / fours * fours, degree() + 1);
+  padded_values_.topRows(degree()) = rule.values();
+  padded_slopes_.setZero(padded_values_.rows(), degree() + 1);
+  padded_slopes_.topRows(degree()) = rule.derivatives();
   weights_.resize(degree() * block_.nonZeros(), degree() + 1);
   const int* const begins = block_.outerIndexPtr();
   for (Index k = 0; k <= degree(); ++k) {

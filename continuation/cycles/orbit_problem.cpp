@@ -38,28 +38,34 @@ Vector OrbitProblem::times(const Vector& u, const Vector& p, const Regime& regim
   return result * duration(u, p);
 }
 
+/// Of each interval and unknown four points at a time, by the weights of each node for these.
 void OrbitProblem::find_places(const OrbitFrame& frame, const Vector& u, double duration, Index first,
                                Scratch& scratch) const {
   const Index n = field_->size();
   const Index m = degree();
   const CollocationRule& rule = frame.mesh.rule();
-  for (Index q = 0; q < scratch.times.size(); ++q) {
+  for (Index q = 0; q < scratch.times.size(); q += m) {
     const Index interval = std::min(first + q / m, intervals() - 1);
-    const Index i = q % m;
-    scratch.times(q) =
-        (frame.mesh.borders()(interval) + frame.mesh.length(interval) * rule.points()(i)) * duration;
-    const double* const values = values_of_points_.data() + i * (m + 1);
-    const double* const derivatives = slopes_of_points_.data() + i * (m + 1);
-    const double* node = u.data() + interval * m * n;
-    for (Index r = 0; r < n; ++r, ++node) {
-      double place = 0;
-      double change = 0;
-      for (Index k = 0; k <= m; ++k) {
-        place += values[k] * node[k * n];
-        change += derivatives[k] * node[k * n];
+    const double border = frame.mesh.borders()(interval);
+    const double length = frame.mesh.length(interval);
+    for (Index i = 0; i < m; ++i) scratch.times(q + i) = (border + length * rule.points()(i)) * duration;
+    for (Index i = 0; i < m; i += fours) {
+      const double* const values = padded_values_.data() + i;
+      const double* const slopes = padded_slopes_.data() + i;
+      const Index count = std::min(fours, m - i);
+      const double* node = u.data() + interval * m * n;
+      for (Index r = 0; r < n; ++r, ++node) {
+        double place[fours] = {};
+        double change[fours] = {};
+        for (Index k = 0; k <= m; ++k) {
+          const double value = node[k * n];
+          const Index from = k * padded_values_.rows();
+          for (Index l = 0; l < fours; ++l) place[l] += values[from + l] * value;
+          for (Index l = 0; l < fours; ++l) change[l] += slopes[from + l] * value;
+        }
+        for (Index l = 0; l < count; ++l) scratch.places(r, q + i + l) = place[l];
+        for (Index l = 0; l < count; ++l) scratch.changes(r, q + i + l) = change[l];
       }
-      scratch.places(r, q) = place;
-      scratch.changes(r, q) = change;
     }
   }
 }

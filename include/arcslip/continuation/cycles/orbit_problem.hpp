@@ -161,6 +161,7 @@ class OrbitProblem : public Problem {
  private:
   struct Scratch;
   static constexpr Index frame_digits = 4;
+  static constexpr Index fours = 4;
 
   static void set_apart(OrbitFrame& frame, const Matrix& part, const Matrix& orbit);
   Vector end_scale(const OrbitFrame& frame, const Matrix& orbit, const Vector& p) const;
@@ -188,8 +189,8 @@ class OrbitProblem : public Problem {
   SparseMatrix block_;           // df/du and the diagonal, n x n
   std::vector<Index> diagonal_;  // where that is in each column of the block
   std::vector<int> places_;      // of the entries of a sparse df/du among those of the block
-  Matrix values_of_points_;      // of the rule, those of a point side by side, and
-  Matrix slopes_of_points_;      // derivatives
+  Matrix padded_values_;         // the rule's, with rows of zeros that make these a multiple of four,
+  Matrix padded_slopes_;         // and its derivatives
   Matrix weights_;               // of the blocks of an interval's points, see fill_blocks, at each node
   SparseMatrix pattern_;
 };
