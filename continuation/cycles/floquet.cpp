@@ -145,33 +145,6 @@ ComplexVector log_multipliers(const std::vector<Matrix>& factors) {
   return logs_of(few.factors());
 }
 
-namespace {
-
-/// X <- X (1 - 2 v v^T); matrices are small, and plain loops take less than expressions of any size would.
-void mirror_from_right(Matrix& x, const double* v) {
-  const Index n = x.rows();
-  for (Index r = 0; r < n; ++r) {
-    double* const row = x.data() + r;
-    double product = 0;
-    for (Index c = 0; c < n; ++c) product += row[c * n] * v[c];
-    for (Index c = 0; c < n; ++c) row[c * n] -= 2 * product * v[c];
-  }
-}
-
-/// (1 - 2 v v^T) X without the first row and the first column.
-void mirror_from_left(const Matrix& x, const double* v, Matrix& out) {
-  const Index n = x.rows();
-  double* to = out.data();
-  for (Index c = 1; c < n; ++c) {
-    const double* const column = x.data() + c * n;
-    double product = 0;
-    for (Index r = 0; r < n; ++r) product += column[r] * v[r];
-    for (Index r = 1; r < n; ++r) *to++ = column[r] - 2 * product * v[r];
-  }
-}
-
-}  // namespace
-
 ComplexVector log_multipliers_beside(const std::vector<Matrix>& factors, const Matrix& along) {
   const Index n = along.rows();
   if (n == 1) return ComplexVector(0);
@@ -184,13 +157,16 @@ ComplexVector log_multipliers_beside(const std::vector<Matrix>& factors, const M
   }
   Gathered reduced;
   Matrix turned(n, n);
-  Matrix beside(n - 1, n - 1);
+  Vector image(n);
   for (std::size_t j = 0; j < factors.size(); ++j) {
     turned = factors[j];
-    const double* const before = mirrors.col(static_cast<Index>(j)).data();
-    mirror_from_right(turned, before);
-    mirror_from_left(turned, before + n, beside);
-    reduced.add(beside);
+    const auto before = mirrors.col(static_cast<Index>(j));
+    const auto after = mirrors.col(static_cast<Index>(j) + 1);
+    image = 2 * turned.lazyProduct(before);
+    turned -= image.lazyProduct(before.transpose());
+    image = 2 * turned.transpose().lazyProduct(after);
+    turned -= after.lazyProduct(image.transpose());
+    reduced.add(turned.bottomRightCorner(n - 1, n - 1));
   }
   return logs_of(reduced.factors());
 }
