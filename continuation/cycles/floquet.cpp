@@ -52,7 +52,7 @@ class Gathered {
     if (!factors_.empty() && spread(product_, work_) < plain) {
       factors_.back().swap(product_);
     } else {
-      factors_.emplace_back(factor);
+      factors_.push_back(factor);
     }
   }
   const std::vector<Matrix>& factors() const { return factors_; }
@@ -103,7 +103,7 @@ std::vector<Index> ends(const Matrix& turn) {
   return result;
 }
 
-/// Of few factors.
+/// ln(mu) of the product of gathered factors.
 ComplexVector logs_of(const std::vector<Matrix>& few) {
   if (!std::all_of(few.begin(), few.end(), [](const Matrix& x) { return x.allFinite(); })) return {};
   const Index n = few.front().rows();

@@ -138,9 +138,9 @@ bool Corrector::has_factors_at(const CurvePoint& origin, double near) {
 }
 
 const SparseMatrix* Corrector::jacobian_at(const CurvePoint& point) {
-  constexpr double close = 2;  // tolerances: `close` moves what has been corrected by one
+  constexpr double most = 2;  // tolerances: `close` moves what has been corrected by one
   const bool is_last =
-      factored_when_ == work_.evaluations && has_factors_at(point, close * options_.tolerance);
+      factored_when_ == work_.evaluations && has_factors_at(point, most * options_.tolerance);
   return is_last ? &linearization_.sparse_jacobian() : nullptr;
 }
 
