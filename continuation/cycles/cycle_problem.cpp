@@ -98,12 +98,13 @@ ComplexVector CycleProblem::found_multipliers(const Vector& u, const Vector& p, 
 }
 
 ComplexVector CycleProblem::multipliers_by(const Vector& u, const Vector& p,
-                                           const SparseMatrix& jacobian) const {
+                                           const FactoredJacobian& jacobian) const {
   constexpr Index count = 20;
   Matrix velocities;
   if (has_duration() && !find_velocities(u, p, velocities)) return {};
   if (field().sparse())
-    return largest_log_multipliers(jacobian, field().size(), intervals(), degree(), velocities, count);
+    return largest_log_multipliers(jacobian.entries, field().size(), intervals(), degree(), velocities,
+                                   count);
   const std::vector<Matrix> factors = transfers(jacobian);
   return has_duration() ? log_multipliers_beside(factors, velocities)
                         : continuation::log_multipliers(factors);

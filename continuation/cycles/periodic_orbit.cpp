@@ -39,7 +39,7 @@ ComplexVector PeriodicOrbit::log_multipliers(const Vector& u, const Vector& p, c
 }
 
 void PeriodicOrbit::take_jacobian(const Vector& u, const Vector& p, const Regime& regime,
-                                  const SparseMatrix& jacobian) const {
+                                  const FactoredJacobian& jacobian) const {
   if (!is_last(u, p, regime)) last() = {number_, u, p, regime, multipliers_by(u, p, jacobian)};
 }
 
@@ -48,7 +48,7 @@ ComplexVector PeriodicOrbit::found_multipliers(const Vector& u, const Vector& p,
   Evaluation out;
   out.sparse_jacobian = &jacobian;
   if (!evaluate(u, p, regime, out)) return {};
-  return multipliers_by(u, p, jacobian);
+  return multipliers_by(u, p, {jacobian});
 }
 
 bool PeriodicOrbit::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,

@@ -124,6 +124,7 @@ class AlikeFactors final : public SparseFactors {
         batches_(static_cast<std::size_t>((blocks_ + lanes - 1) / lanes),
                  BlocksSideBySide(height_, pivots_ + outer_, pivots_, staying_)),
         vectors_(height_ * lanes, std::ssize(batches_)),
+        left_{batches_, blocks_, left_rows_, pivots_, Eigen::MatrixX<int>(outer_, blocks_)},
         behind_(outer_ * lanes),
         rest_vector_(std::ssize(parts.columns)) {
     set_orders(parts);
@@ -150,7 +151,7 @@ class AlikeFactors final : public SparseFactors {
       for (Index lane = 0; lane < lanes_of(b); ++lane) sign *= batch.sign(lane);
       leave(batch, b);
     }
-    return growth_ < worst_growth ? sign * rest_factors_->factor(rest_) : 0;
+    return sign * rest_factors_->factor(rest_);
   }
 
   void multiply_determinant(LogProduct& product) const override {
@@ -163,7 +164,9 @@ class AlikeFactors final : public SparseFactors {
     rest_factors_->multiply_determinant(product);
   }
 
-  bool is_exact() const override { return growth_ < little_growth && rest_factors_->is_exact(); }
+  double growth() const override { return std::max(growth_, rest_factors_->growth()); }
+
+  const RowsLeft* rows_left() const override { return &left_; }
 
   void solve(Vector& x) override {
     for (Index i = 0; i < other_rows_.size(); ++i) rest_vector_(i) = x(other_rows_(i));
@@ -304,6 +307,7 @@ class AlikeFactors final : public SparseFactors {
           inner_columns_.set(b, j, column);
         } else {
           outer_columns_.set(b, j - pivots_, column_of(column));
+          left_.columns(j - pivots_, b) = column;
         }
         for (Index i = 0; i < height_; ++i) {
           const int row = rows[static_cast<std::size_t>(i)];
@@ -350,6 +354,7 @@ class AlikeFactors final : public SparseFactors {
   Table targets_;        // of what is left
   std::vector<BlocksSideBySide> batches_;
   Matrix vectors_;  // of all their rows
+  RowsLeft left_;
   Vector behind_;
   Vector rest_vector_;
   SparseMatrix rest_;

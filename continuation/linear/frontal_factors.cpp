@@ -67,7 +67,7 @@ class FrontalFactors final : public SparseFactors {
     }
   }
 
-  bool is_exact() const override { return growth_ < little_growth; }
+  double growth() const override { return growth_; }
 
   void solve(Vector& x) override {
     for (Index i = 0; i < x.size(); ++i) work_(i) = x(row_order_[static_cast<std::size_t>(i)]);
@@ -176,7 +176,7 @@ class FrontalFactors final : public SparseFactors {
       }
     }
     growth_ = growth;
-    return growth < worst_growth ? sign : 0;
+    return sign;
   }
 
   /// Eliminates a column from those up to `to`.

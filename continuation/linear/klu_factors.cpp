@@ -14,9 +14,9 @@ namespace {
 
 // Of a diagonal entry over the largest of its column, where it is taken as a pivot: a hundredth of that, as
 // is the rule, lets entries grow so much that solutions along orbits with multipliers of 1e-30 lose all
-// digits.
+// digits. Where they grow even so, as near homoclinic orbits, none but the largest is taken.
 constexpr double least_pivot = 0.1;
-constexpr double least_growth = 1e-3;  // of the pivots' growth when they were chosen
+constexpr double most_growth = 1e3;  // with old pivots, over that when they were chosen
 constexpr double most_fill = 2;  // over the least: pivots that fill more were a makeshift, which is not kept
 
 /// Owns what KLU allocates.
@@ -27,7 +27,6 @@ class KluFactors final : public SparseFactors {
     klu_defaults(&common_);
     common_.btf = 0;  // the borders couple everything to one block
     common_.scale = -1;
-    common_.tol = least_pivot;
     symbolic_ = klu_analyze_given(static_cast<int>(pattern.rows()), pattern.outerIndexPtr(),
                                   pattern.innerIndexPtr(), order.data(), order.data(), &common_);
     if (symbolic_ == nullptr) check_memory();
@@ -52,6 +51,8 @@ class KluFactors final : public SparseFactors {
     for (int i = 0; i < numeric_->n; ++i) product *= pivots[i];
   }
 
+  double growth() const override { return growth_; }
+
   void solve(Vector& x) override { klu_solve(symbolic_, numeric_, numeric_->n, 1, x.data(), &common_); }
   void solve_transposed(Vector& x) override {
     klu_tsolve(symbolic_, numeric_, numeric_->n, 1, x.data(), &common_);
@@ -65,13 +66,19 @@ class KluFactors final : public SparseFactors {
   }
 
   bool factor_with_new_pivots(SparseMatrix& matrix) {
+    return factor_with(matrix, least_pivot) && (growth_ <= worst_growth || factor_with(matrix, 1));
+  }
+
+  bool factor_with(SparseMatrix& matrix, double tolerance) {
+    common_.tol = tolerance;
     klu_free_numeric(&numeric_, &common_);
     numeric_ =
         klu_factor(matrix.outerIndexPtr(), matrix.innerIndexPtr(), matrix.valuePtr(), symbolic_, &common_);
     check_memory();
     if (numeric_ == nullptr || common_.status != KLU_OK) return false;
     least_fill_ = least_fill_ > 0 ? std::min(least_fill_, fill()) : fill();
-    chosen_growth_ = growth(matrix);
+    set_growth(matrix);
+    chosen_growth_ = growth_;
     permutations_sign_ = permutation_sign(numeric_->Pnum, seen_) * permutation_sign(symbolic_->Q, seen_);
     return true;
   }
@@ -80,16 +87,17 @@ class KluFactors final : public SparseFactors {
     if (numeric_ == nullptr || fill() > most_fill * least_fill_) return false;
     const int done = klu_refactor(matrix.outerIndexPtr(), matrix.innerIndexPtr(), matrix.valuePtr(),
                                   symbolic_, numeric_, &common_);
-    return done != 0 && common_.status == KLU_OK && growth(matrix) >= least_growth * chosen_growth_;
+    if (done == 0 || common_.status != KLU_OK) return false;
+    set_growth(matrix);
+    return growth_ <= std::min(most_growth * chosen_growth_, std::max(worst_growth, chosen_growth_));
   }
 
   double fill() const { return static_cast<double>(numeric_->lnz) + static_cast<double>(numeric_->unz); }
 
-  /// Reciprocal growth of the entries in the elimination: small where the pivots are bad.
-  double growth(SparseMatrix& matrix) {
+  void set_growth(SparseMatrix& matrix) {
     klu_rgrowth(matrix.outerIndexPtr(), matrix.innerIndexPtr(), matrix.valuePtr(), symbolic_, numeric_,
                 &common_);
-    return common_.rgrowth;
+    growth_ = 1 / common_.rgrowth;
   }
 
   double sign() const {
@@ -105,6 +113,7 @@ class KluFactors final : public SparseFactors {
   klu_common common_{};
   klu_symbolic* symbolic_ = nullptr;
   klu_numeric* numeric_ = nullptr;
+  double growth_ = 1;
   double chosen_growth_ = 1;
   double least_fill_ = 0;
   double permutations_sign_ = 1;

@@ -16,6 +16,7 @@ namespace {
 constexpr double last_weight =
     1e-6;                         // of the largest entry of a row for the end where that of others is 1 to 2
 constexpr double dense_gain = 6;  // in multiplications a second, of fronts over single entries
+constexpr double little_growth = 1e3;  // of entries in fronts: these digits are not missed
 constexpr double exact_enough = 1e-8;  // of a correction: its square is below rounding
 constexpr int most_refinements = 4;
 
@@ -148,19 +149,27 @@ bool SparseBorderedSolver::scale_rows(double weight_of_last) {
   return true;
 }
 
+/// Where entries grow in fronts beyond what refinement makes good, by single entries, if they grow less
+/// there.
 double SparseBorderedSolver::factor() {
   if (matrix_.rows() == 0) return 0;
   set_borders();
-  if (dense_ != nullptr) {
-    if (!scale_rows(1)) return 0;
-    factors_ = dense_.get();
-    const double sign = factors_->factor(scaled_);
-    if (sign != 0) return sign;
-  }
+  if (dense_ == nullptr) return factor_by_entries();
+  if (!scale_rows(1)) return 0;
+  factors_ = dense_.get();
+  const double sign = dense_->factor(scaled_);
+  if (sign != 0 && dense_->growth() < worst_growth) return sign;
+  const double by_entries = factor_by_entries();
+  if (sign == 0 || (by_entries != 0 && klu_->growth() < dense_->growth())) return by_entries;
+  factors_ = dense_.get();
+  return scale_rows(1) ? sign : 0;
+}
+
+double SparseBorderedSolver::factor_by_entries() {
   if (!scale_rows(last_weight)) return 0;
   if (klu_ == nullptr) klu_ = make_klu_factors(scaled_, order_);
   factors_ = klu_.get();
-  return factors_->factor(scaled_);
+  return klu_->factor(scaled_);
 }
 
 void SparseBorderedSolver::multiply_determinant(LogProduct& product) const {
@@ -178,7 +187,7 @@ void SparseBorderedSolver::solve_refined(bool transposed) {
   };
   solution_ = right_hand_side_;
   solve_once(solution_);
-  if (factors_->is_exact()) return;
+  if (factors_ == dense_.get() && factors_->growth() < little_growth) return;
   double last = size_of(solution_);
   for (int i = 0; i < most_refinements; ++i) {
     residual_ = right_hand_side_;

@@ -137,11 +137,12 @@ bool Corrector::has_factors_at(const CurvePoint& origin, double near) {
   return before_.norm() < near;
 }
 
-const SparseMatrix* Corrector::jacobian_at(const CurvePoint& point) {
+std::optional<FactoredJacobian> Corrector::jacobian_at(const CurvePoint& point) {
   constexpr double most = 2;  // tolerances: `close` moves what has been corrected by one
   const bool is_last =
       factored_when_ == work_.evaluations && has_factors_at(point, most * options_.tolerance);
-  return is_last ? &linearization_.sparse_jacobian() : nullptr;
+  if (!is_last) return std::nullopt;
+  return FactoredJacobian{linearization_.sparse_jacobian(), solver_->rows_left(), &factored_scale_};
 }
 
 /// By the factors at the origin, which are at hand, as far as corrections shrink fast, if they are so short

@@ -21,9 +21,9 @@ Watch::Watch(const Problem& problem, const std::vector<UserEvent>& events)
   kept_.reserve(1 + most_past);
 }
 
-void Watch::look(const CurvePoint& point, const SparseMatrix* jacobian) {
+void Watch::look(const CurvePoint& point, const std::optional<FactoredJacobian>& jacobian) {
   functions_.clear();
-  if (jacobian != nullptr && (spectral_ || !tests_.empty()))
+  if (jacobian && (spectral_ || !tests_.empty()))
     problem_.take_jacobian(point.unknowns, point.parameters, point.regime, *jacobian);
   if (!tests_.empty()) {
     problem_.test(point.unknowns, point.parameters, point.regime, values_);

@@ -2,7 +2,7 @@
 // that stay, with Floquet multipliers at each point. Over the time of as many evaluations of the field with
 // its derivatives as there are Gauss points, and of as many dense factors of 12 unknowns as there are
 // intervals, one after the other in the same run. On the same mesh, with tolerances of 1e-7 and two
-// corrections, AUTO-07p carries out 1.8 times as many instructions a point.
+// corrections, AUTO-07p carries out twice as many instructions a point.
 //
 // usage: cycle_speed
 

@@ -1,12 +1,66 @@
 // Branches of cycles on which the parameter all but stands still: relaxation oscillations as they grow, and
 // orbits that come near an equilibrium.
 
+#include <memory>
+#include <numeric>
+#include <vector>
+
+#include "arcslip/continuation/linear/sparse_bordered_solver.hpp"
 #include "cycle_cases.hpp"
 
 namespace {
 
 using namespace arcslip;
 using namespace arcslip::testing;
+
+/// What solutions leave of a right-hand side, over that and the solution: with the Jacobians along a branch
+/// beside a parameter's column, at worst, where they are factored by blocks and where by single entries.
+struct Left {
+  double by_blocks = 0;
+  double by_entries = 0;
+};
+
+Left left_by_solves(const TracedBranch& traced, Index parameter) {
+  const continuation::Problem& problem = traced.problem();
+  const Index n = problem.size();
+  SparseMatrix jacobian;
+  Matrix by_parameters(n, std::ssize(problem.parameter_names()));
+  continuation::Evaluation wanted;
+  wanted.sparse_jacobian = &jacobian;
+  wanted.parameter_jacobian = &by_parameters;
+  std::vector<int> order(static_cast<std::size_t>(n + 1));
+  std::iota(order.begin(), order.end(), 0);
+  const Vector right = Vector::LinSpaced(n + 1, 0.5, 1);
+  continuation::SparseBorderedSolver by_blocks(n, 1);
+  std::unique_ptr<continuation::SparseFactors> by_entries;
+  Left left;
+  for (const BranchPoint& point : traced.branch.points) {
+    REQUIRE(problem.evaluate(point.unknowns, point.parameters, point.regime, wanted));
+    by_blocks.set_jacobian(jacobian, Vector::Ones(n));
+    by_blocks.columns() = by_parameters.col(parameter);
+    by_blocks.rows().setOnes();
+    by_blocks.corner()(0, 0) = 1;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index k = 0; k <= n; ++k) {
+      for (SparseMatrix::InnerIterator entry(jacobian, k); k < n && entry; ++entry)
+        entries.emplace_back(entry.row(), entry.col(), entry.value());
+      entries.emplace_back(n, k, 1);
+      if (k < n) entries.emplace_back(k, n, by_parameters(k, parameter));
+    }
+    SparseMatrix matrix(n + 1, n + 1);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    if (by_entries == nullptr) by_entries = continuation::make_klu_factors(matrix, order);
+    REQUIRE(by_blocks.factor() != 0);
+    REQUIRE(by_entries->factor(matrix) != 0);
+    Vector x = right;
+    by_blocks.solve(x);
+    left.by_blocks = std::max(left.by_blocks, (matrix * x - right).norm() / (right.norm() + x.norm()));
+    x = right;
+    by_entries->solve(x);
+    left.by_entries = std::max(left.by_entries, (matrix * x - right).norm() / (right.norm() + x.norm()));
+  }
+  return left;
+}
 
 }  // namespace
 
@@ -37,7 +91,12 @@ TEST_CASE("Coupled pendula go round as AUTO-07p has it, to where they come to re
   check_values(values_at(all[1], PointType::branch_point, "I"), {0.331445241, 0.175511713}, 2e-9);
   check_values(values_at(all[1], PointType::fold, "I"), {0.399074389, 0.158594857}, 2e-9);
   check_values(values_at(all[3], PointType::fold, "I"), {0.173029639, 0.173029639}, 2e-9);
-  for (const TracedBranch& one : all) CHECK(one.branch.stop == Stop::infinite_period);
+  for (const TracedBranch& one : all) {
+    CHECK(one.branch.stop == Stop::infinite_period);
+    const Left left = left_by_solves(one, 2);
+    CHECK(left.by_blocks < 1e-10);
+    CHECK(left.by_entries < 1e-6);  // before refinement
+  }
   const BranchPoint& start = all[0].branch.points.front();  // rotations settle turns away from their guess
   CHECK(std::abs(value(all[0], start, "phi_1_max")) < 2 * pi);
 }

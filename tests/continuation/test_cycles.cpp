@@ -7,6 +7,7 @@
 #include "arcslip/continuation/curves/curve.hpp"
 #include "arcslip/continuation/cycles/floquet.hpp"
 #include "arcslip/continuation/cycles/settled_cycle.hpp"
+#include "arcslip/continuation/linear/sparse_bordered_solver.hpp"
 #include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/problem/derivative_check.hpp"
 #include "branches.hpp"
@@ -150,6 +151,32 @@ TEST_CASE("Points of short steps take little more than one factorisation each", 
     REQUIRE(all.problem->eigenvalues(point.unknowns, point.parameters, point.regime, anew));
     REQUIRE(point.eigenvalues.size() == anew.size());
     CHECK((point.eigenvalues - anew).cwiseAbs().maxCoeff() < 1e-8);
+  }
+}
+
+TEST_CASE("What factors have left of intervals tells what these make of changes", "[cycles]") {
+  for (const Index intervals : {8, 9, 30}) {  // four are eliminated side by side
+    const OrbitMesh mesh(CollocationRule(3), intervals);
+    const CycleStart start = cycle_from_orbit(std::make_shared<EquilibriumField>(van_der_pol()), mesh,
+                                              circle(mesh, 2, -2), 6.6, Vector::Constant(1, 1));
+    SparseMatrix jacobian;
+    Evaluation out;
+    out.sparse_jacobian = &jacobian;
+    REQUIRE(start.problem->evaluate(start.guess.unknowns, start.guess.parameters, {}, out));
+    const Index size = start.problem->size();
+    SparseBorderedSolver solver(size, 1);
+    const Vector scale = Vector::LinSpaced(size + 1, 0.1, 7);
+    solver.set_jacobian(jacobian, scale);
+    solver.columns() = Matrix::Constant(size, 1, 0.3);
+    solver.rows() = Matrix::Constant(1, size, 0.2);
+    solver.corner()(0, 0) = 1;
+    REQUIRE(solver.factor() != 0);
+    REQUIRE(solver.rows_left() != nullptr);
+    const std::vector<Matrix> by_factors = start.problem->transfers({jacobian, solver.rows_left(), &scale});
+    const std::vector<Matrix> by_entries = start.problem->transfers({jacobian});
+    REQUIRE(std::ssize(by_factors) == intervals);
+    for (std::size_t j = 0; j < by_factors.size(); ++j)
+      CHECK((by_factors[j] - by_entries[j]).cwiseAbs().maxCoeff() < 1e-12 * by_entries[j].norm());
   }
 }
 

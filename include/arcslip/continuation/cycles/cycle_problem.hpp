@@ -60,7 +60,8 @@ class CycleProblem : public PeriodicOrbit {
 
   /// Of sparse fields those of the largest.
   ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const override;
-  ComplexVector multipliers_by(const Vector& u, const Vector& p, const SparseMatrix& jacobian) const override;
+  ComplexVector multipliers_by(const Vector& u, const Vector& p,
+                               const FactoredJacobian& jacobian) const override;
 
  private:
   /// At the ends of intervals, n x (N + 1).

@@ -125,7 +125,7 @@ class OrbitProblem : public Problem {
   double apart(const Vector& u, const Regime& regime) const;
 
   /// du(s_(j+1))/du(s_j) of each interval, n x n, by the Jacobian at an orbit of a field that is not sparse.
-  std::vector<Matrix> transfers(const SparseMatrix& jacobian) const;
+  std::vector<Matrix> transfers(const FactoredJacobian& jacobian) const;
 
   Index size() const override { return field_->size() * nodes() + (has_duration_ ? 1 : 0); }
   std::vector<std::string> parameter_names() const override { return field_->parameter_names(); }
@@ -180,6 +180,8 @@ class OrbitProblem : public Problem {
                      const Evaluation& out) const;
   void fill_blocks(const OrbitFrame& frame, double factor, Index interval, Index from, Scratch& scratch,
                    SparseMatrix& out) const;
+  bool is_left_of_intervals(const RowsLeft& left) const;
+  void take_interval(const SparseMatrix& jacobian, Index interval, Index lane, BlocksSideBySide& out) const;
   [[nodiscard]] bool fill_conditions(const OrbitFrame& frame, const Vector& u, const Vector& p,
                                      const Evaluation& out) const;
 

@@ -44,7 +44,7 @@ class PeriodicOrbit : public OrbitProblem {
   std::vector<PointType> test_types() const override { return {PointType::period_doubling}; }
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
   void take_jacobian(const Vector& u, const Vector& p, const Regime& regime,
-                     const SparseMatrix& jacobian) const override;
+                     const FactoredJacobian& jacobian) const override;
 
  protected:
   PeriodicOrbit(std::shared_ptr<const Field> field, bool has_duration, bool doubled)
@@ -53,7 +53,7 @@ class PeriodicOrbit : public OrbitProblem {
   virtual ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
   /// The same on intervals, by the Jacobian there.
   virtual ComplexVector multipliers_by(const Vector& u, const Vector& p,
-                                       const SparseMatrix& jacobian) const = 0;
+                                       const FactoredJacobian& jacobian) const = 0;
   /// How many there may be.
   virtual Index most_multipliers() const { return field().size() - (has_duration() ? 1 : 0); }
 

@@ -100,7 +100,8 @@ class PiecewiseCycle : public PeriodicOrbit {
                                     const EndConditions& out) const override;
   Matrix part_apart(const OrbitMesh& mesh, const Matrix& orbit) const override;
   double given_duration(const Vector& p, Vector* by_parameters) const override;
-  ComplexVector multipliers_by(const Vector& u, const Vector& p, const SparseMatrix& jacobian) const override;
+  ComplexVector multipliers_by(const Vector& u, const Vector& p,
+                               const FactoredJacobian& jacobian) const override;
   Index most_multipliers() const override { return n_ - 1; }
 
  private:

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "arcslip/continuation/linear/condensed_jacobian.hpp"
+#include "arcslip/continuation/linear/factored_jacobian.hpp"
 #include "arcslip/continuation/linear/log_product.hpp"
 #include "arcslip/types.hpp"
 
@@ -42,6 +43,9 @@ class BorderedSolver {
 
   /// Multiplies by the determinant of what has been factored.
   virtual void multiply_determinant(LogProduct& product) const = 0;
+
+  /// What was left of blocks of rows of J; null where it has not been factored so.
+  virtual const RowsLeft* rows_left() const { return nullptr; }
 
   /// Overwrites (f, g), n + borders, by (x, y), after `factor` has returned a sign.
   virtual void solve(Vector& right_hand_side) = 0;

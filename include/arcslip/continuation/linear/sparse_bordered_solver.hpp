@@ -18,8 +18,8 @@ namespace arcslip::continuation {
 ///
 /// Small blocks that are alike are eliminated first, side by side, and what they leave by fronts. Without
 /// such, fronts are used where they cost no more than six times the multiplications of KLU's order; where
-/// their pivots do not serve, KLU takes over. Nothing is allocated in fronts, and by KLU where the pivots of
-/// its last factorisation still serve.
+/// entries grow too much there, KLU takes over. Nothing is allocated in fronts, and by KLU where the pivots
+/// of its last factorisation still serve.
 class SparseBorderedSolver final : public BorderedSolver {
  public:
   /// For n = `size` unknowns; neither number may be negative.
@@ -34,6 +34,7 @@ class SparseBorderedSolver final : public BorderedSolver {
   /// Throws std::bad_alloc or std::length_error where the factors do not fit into memory or their indices.
   double factor() override;
   void multiply_determinant(LogProduct& product) const override;
+  const RowsLeft* rows_left() const override { return factors_->rows_left(); }
 
   void solve(Vector& right_hand_side) override;
   void solve_transposed(Vector& right_hand_side) override;
@@ -42,6 +43,7 @@ class SparseBorderedSolver final : public BorderedSolver {
   bool same_pattern(const SparseMatrix& jacobian) const;
   void set_pattern(const SparseMatrix& jacobian);
   void set_borders();
+  double factor_by_entries();
   void find_last_rows(const SparseMatrix& jacobian);
   bool scale_rows(double weight_of_last);
   void solve_refined(bool transposed);

@@ -5,14 +5,13 @@
 #include <memory>
 #include <vector>
 
+#include "arcslip/continuation/linear/factored_jacobian.hpp"
 #include "arcslip/continuation/linear/log_product.hpp"
 #include "arcslip/types.hpp"
 
 namespace arcslip::continuation {
 
-// Of entries of about 1, in the elimination.
-constexpr double worst_growth = 1e6;   ///< refinement gives back these digits
-constexpr double little_growth = 1e3;  ///< they are not missed
+constexpr double worst_growth = 1e9;  ///< of entries in an elimination: refinement gives back these digits
 
 /// Factors of square matrices of one pattern, whose entries are about 1 in each row but for the borders' last
 /// rows, which are kept for the end.
@@ -20,16 +19,18 @@ class SparseFactors {
  public:
   virtual ~SparseFactors() = default;
 
-  /// The sign of the determinant; 0 if the matrix is singular or not finite, or needs pivots of another
-  /// order. Throws std::bad_alloc or std::length_error where the factors do not fit into memory or their
-  /// indices.
+  /// The sign of the determinant; 0 if the matrix is singular or not finite. Throws std::bad_alloc or
+  /// std::length_error where the factors do not fit into memory or their indices.
   virtual double factor(SparseMatrix& matrix) = 0;
 
   /// By the size of the determinant.
   virtual void multiply_determinant(LogProduct& product) const = 0;
 
-  /// Whether entries hardly grew in the elimination, so that solutions need no refinement.
-  virtual bool is_exact() const { return false; }
+  /// To how much entries of about 1 grew in the elimination: solutions lose as many digits.
+  virtual double growth() const = 0;
+
+  /// What was left of blocks; null where there are none.
+  virtual const RowsLeft* rows_left() const { return nullptr; }
 
   virtual void solve(Vector& x) = 0;             ///< x <- A^{-1} x, after `factor` has returned a sign
   virtual void solve_transposed(Vector& x) = 0;  ///< x <- A^{-T} x

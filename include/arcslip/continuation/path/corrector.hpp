@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "arcslip/continuation/linear/bordered_solver.hpp"
 #include "arcslip/continuation/problem/linearization.hpp"
@@ -122,8 +123,8 @@ class Corrector {
   /// `direction()`.
   Correction linearise(CurvePoint& point, const Vector& normal);
 
-  /// dF/du of a sparse problem at a point that was corrected last, to the tolerance; else null.
-  const SparseMatrix* jacobian_at(const CurvePoint& point);
+  /// dF/du of a sparse problem at a point that was corrected last, to the tolerance; else none.
+  std::optional<FactoredJacobian> jacobian_at(const CurvePoint& point);
 
   /// Whether the bordered Jacobian last factored is singular but for rounding.
   bool nearly_singular();

@@ -30,7 +30,7 @@ class Watch {
   Watch(const Problem& problem, const std::vector<UserEvent>& events);
 
   /// Evaluates all of them at a point, the Jacobian of a sparse problem there may be at hand.
-  void look(const CurvePoint& point, const SparseMatrix* jacobian = nullptr);
+  void look(const CurvePoint& point, const std::optional<FactoredJacobian>& jacobian = {});
 
   const std::vector<double>& functions() const { return functions_; }  ///< tests, events, pieces of events
   const ComplexVector& eigenvalues() const { return eigenvalues_; }    ///< by descending real part, or none

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "arcslip/continuation/linear/condensed_jacobian.hpp"
+#include "arcslip/continuation/linear/factored_jacobian.hpp"
 #include "arcslip/continuation/points/point_type.hpp"
 #include "arcslip/continuation/problem/regime.hpp"
 #include "arcslip/continuation/problem/symmetry.hpp"
@@ -153,7 +154,7 @@ class Problem {
   /// Told before `test` and `eigenvalues` are asked for at (u, p), where dF/du of a sparse problem is at hand
   /// there: what they take from it can be found now.
   virtual void take_jacobian(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*regime*/,
-                             const SparseMatrix& /*jacobian*/) const {}
+                             const FactoredJacobian& /*jacobian*/) const {}
 
   /// Typical magnitudes at (u, p), all positive, in which steps and errors are measured: a parameter that
   /// spans decades gives its own value. The default is the value itself, or 1 where that is larger.
