@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "arcslip/continuation/path/watch.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 
 namespace arcslip::continuation {
@@ -49,16 +50,17 @@ class Carrier {
   Regime regime_;
 };
 
-/// How far along a branch the frame of its last point serves. On a branch point it has to: others cannot be
-/// corrected there.
+/// How far along a branch the frame of its last point serves. On special points it has to: on another mesh
+/// they lie elsewhere, be it by 1e-8, and would be told once more, and on branch points orbits cannot be
+/// corrected.
 class MeshWatch {
  public:
   MeshWatch(OrbitProblem& problem, const OrbitOptions& options) : problem_(problem), options_(options) {}
 
   bool serves(const BranchPoint& point) {
     constexpr double grip = 0.5;
-    if (point.type == PointType::branch_point) singular_ = point.arclength;
-    if (point.arclength == singular_) return true;
+    if (!is_plain(point.type)) special_ = point.arclength;
+    if (point.arclength == special_) return true;
     return problem_.mesh_error(point.unknowns, point.regime) <= options_.tolerance &&
            problem_.phase_grip(point.unknowns, point.regime) > grip;
   }
@@ -76,9 +78,13 @@ class MeshWatch {
   }
 
  private:
+  static bool is_plain(PointType type) {
+    return type == PointType::regular || type == PointType::start || type == PointType::user;
+  }
+
   OrbitProblem& problem_;
   const OrbitOptions& options_;
-  double singular_ = std::numeric_limits<double>::quiet_NaN();  // where the last branch point is
+  double special_ = std::numeric_limits<double>::quiet_NaN();  // where the last special point is
 };
 
 /// Thrown where a finer mesh is needed and there may be one.
@@ -115,7 +121,20 @@ bool is_at_rest(const OrbitProblem& problem, const BranchPoint& point) {
   return orbit.rowwise().maxCoeff() == orbit.rowwise().minCoeff();
 }
 
-/// Puts a branch on a mesh that fits where it stands; false if no mesh of this resolution does.
+/// The signs that tell special points, and how many multipliers are outside the unit circle.
+std::vector<Index> signs_at(const OrbitProblem& problem, const CurvePoint& point) {
+  Vector functions(std::ssize(problem.test_types()));
+  problem.test(point.unknowns, point.parameters, point.regime, functions);
+  std::vector<Index> signs{sign_of(point.tangent(point.tangent.size() - 1))};
+  for (const double value : functions) signs.push_back(sign_of(value));
+  ComplexVector eigenvalues;
+  if (problem.eigenvalues(point.unknowns, point.parameters, point.regime, eigenvalues))
+    signs.push_back((eigenvalues.real().array() > 0).count());
+  return signs;
+}
+
+/// Puts a branch on a mesh that fits where it stands; false if no mesh of this resolution does. It is left
+/// where it is so near to a special point that this would be passed, or come to lie ahead again.
 bool renew(OrbitProblem& problem, MeshWatch& meshes, Branch& branch, const TraceOptions& options) {
   Progress& progress = *branch.checkpoint->ahead;
   const Regime before = progress.here.regime;
@@ -125,7 +144,10 @@ bool renew(OrbitProblem& problem, MeshWatch& meshes, Branch& branch, const Trace
   Corrector corrector(problem, index_of(problem.parameter_names(), options.parameter),
                       {.tolerance = options.tolerance});
   const Vector bend = carrier(progress.bend.cwiseProduct(progress.here.scale));
-  if (!carrier.carry(corrector, progress.here)) return false;
+  CurvePoint here = progress.here;
+  if (!carrier.carry(corrector, here)) return false;
+  if (signs_at(problem, here) != signs_at(problem, progress.here)) return true;
+  progress.here = here;
   progress.bend = bend.cwiseQuotient(progress.here.scale);
   Carrier(problem, progress.start.regime, *regime).carry(corrector, progress.start);
   progress.past.clear();

@@ -35,6 +35,7 @@ EventSearch StepSearch::run() {
   for (const EventKind* kind : event_kinds) {
     if (solved()) kind->search(*this);
   }
+  note_jumps_at_folds();
   for (Event& event : result_.events) {
     const auto& types = event.kind->explained_by;
     event.told = std::none_of(types.begin(), types.end(), [this](PointType type) { return has(type); });
@@ -61,6 +62,18 @@ void StepSearch::note(Event event) {
 void StepSearch::note(const EventKind& kind, PointType type, Index index, const Zero& zero) {
   if (zero.state == Zero::State::failed) fail();
   if (zero.state == Zero::State::found && solved()) note({&kind, type, index, zero.s});
+}
+
+void StepSearch::note_jump(const EventKind& kind, PointType type, Index index, const Zero& zero) {
+  if (zero.state == Zero::State::found) jumps_.push_back({&kind, type, index, zero.s});
+}
+
+void StepSearch::note_jumps_at_folds() {
+  const double beside = 1e-5 * stepper.step().distance;
+  const bool begins_on_one = sign_of_rate(stepper, stepper.parameter_slope(Hold::tangent)) == 0;
+  for (const Event& jump : jumps_) {
+    if ((begins_on_one && jump.s < beside) || (has(PointType::fold) && jump.s > upper_ - beside)) note(jump);
+  }
 }
 
 double StepSearch::at_upper(std::size_t which, double end) {

@@ -30,8 +30,12 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
     const bool is_sharp = step.watch.type(i) == PointType::branch_point;
     ZeroSearch zeros(step.stepper, step.readings,
                      {.jumps_count = false, .left_over = is_sharp ? 1e-8 : ZeroOptions{}.left_over});
-    step.note(kind, step.watch.type(i), index,
-              zeros.first(which, before, 0, step.upper(), step.tolerances.located));
+    const Zero zero = zeros.first(which, before, 0, step.upper(), step.tolerances.located);
+    step.note(kind, step.watch.type(i), index, zero);
+    if (changes && zero.state == Zero::State::absent && step.watch.type(i) == PointType::period_doubling)
+      step.note_jump(kind, step.watch.type(i), index,
+                     ZeroSearch(step.stepper, step.readings)
+                         .first(which, before, 0, step.upper(), step.tolerances.located));
   }
 }
 

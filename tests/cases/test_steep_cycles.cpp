@@ -101,6 +101,44 @@ TEST_CASE("Coupled pendula go round as AUTO-07p has it, to where they come to re
   CHECK(std::abs(value(all[0], start, "phi_1_max")) < 2 * pi);
 }
 
+TEST_CASE("Canards fold and double their period nearer to one another than can be told, each once",
+          "[cycles]") {
+  // M. T. M. Koper, Physica D 80 (1995) 72: where the slow scales part further, multipliers pass -1 and 1
+  // ever nearer together. All digits by degree 7 and by a tolerance of 1e-9.
+  const std::string koper = R"([model.parameters]
+k = -10
+slow = 0.1
+lam = -17.935
+[model.equations]
+x = "(k*y - x^3 + 3*x - lam)/slow"
+y = "x - 2*y + z"
+z = "y - z"
+[model.start]
+x = 1.77
+y = 1.77
+z = 1.77
+[branch]
+parameter = "lam"
+from = -17.935
+to = 0
+switching = true
+[cycles]
+doublings = 0
+)";
+  const auto one = cycles_of(traced_of(koper));
+  REQUIRE(one.size() == 1);  // a mesh was made anew on the second point, which then was told twice more
+  check_values(values_at(one[0], PointType::period_doubling, "lam"), {-7.46088181, -6.23500432}, 1e-8);
+  check_values(values_at(one[0], PointType::fold, "lam"), {-6.23500432, -6.28395116}, 1e-8);
+  for (const std::string tolerance : {"1e-6", "1e-9"}) {
+    const auto all =
+        cycles_of(traced_of(koper, {"model.parameters.slow=0.02", "cycles.tolerance=" + tolerance}));
+    REQUIRE(all.size() == 1);
+    check_values(values_at(all[0], PointType::period_doubling, "lam"),
+                 {-7.87341289, -6.57473979, -6.74547269, -6.68641441}, 1e-8);
+    check_values(values_at(all[0], PointType::fold, "lam"), {-6.57473979, -6.74547269}, 1e-8);
+  }
+}
+
 TEST_CASE("A nerve's cycles fold and double their period next to one another", "[cycles]") {
   const Run run("hodgkin_huxley");
   check_values(all_values_at(run.traced, PointType::hopf, "I"), {9.779338, 154.526334}, 1e-7);

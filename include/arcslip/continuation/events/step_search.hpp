@@ -44,15 +44,21 @@ class StepSearch {
   /// The same of one at a zero that was looked for.
   void note(const EventKind& kind, PointType type, Index index, const Zero& zero);
 
+  /// Keeps where a test jumps: it is an event where the parameter turns there, as a multiplier that goes from
+  /// far below -1 through 1 passes -1 as well, be it nearer to the fold than can be told.
+  void note_jump(const EventKind& kind, PointType type, Index index, const Zero& zero);
+
   /// There is an event that could not be located.
   void fail() { result_.solved = false; }
   bool solved() const { return result_.solved; }
 
  private:
   bool has(PointType type) const;
+  void note_jumps_at_folds();
 
   double upper_;
   EventSearch result_;
+  std::vector<Event> jumps_;
 };
 
 /// Each in the file of its name, but for the functions' in function_zeros.cpp.
