@@ -50,19 +50,25 @@ class Carrier {
   Regime regime_;
 };
 
-/// How far along a branch the frame of its last point serves. On special points it has to: on another mesh
-/// they lie elsewhere, be it by 1e-8, and would be told once more, and on branch points orbits cannot be
-/// corrected.
+/// How far along a branch the frame of its last point serves. On a branch point it has to: others cannot be
+/// corrected there.
 class MeshWatch {
  public:
   MeshWatch(OrbitProblem& problem, const OrbitOptions& options) : problem_(problem), options_(options) {}
 
   bool serves(const BranchPoint& point) {
     constexpr double grip = 0.5;
-    if (!is_plain(point.type)) special_ = point.arclength;
-    if (point.arclength == special_) return true;
+    if (point.type == PointType::branch_point) singular_ = point.arclength;
+    if (point.arclength == singular_) return true;
     return problem_.mesh_error(point.unknowns, point.regime) <= options_.tolerance &&
            problem_.phase_grip(point.unknowns, point.regime) > grip;
+  }
+
+  /// Whether a new frame can wait for one more point: signs that are all rounding would put it off for ever.
+  bool can_wait() {
+    constexpr int most = 3;
+    waits_ = waits_ < most ? waits_ + 1 : 0;
+    return waits_ > 0;
   }
 
   /// A frame for an orbit; none where no mesh of this resolution is good enough.
@@ -78,13 +84,10 @@ class MeshWatch {
   }
 
  private:
-  static bool is_plain(PointType type) {
-    return type == PointType::regular || type == PointType::start || type == PointType::user;
-  }
-
   OrbitProblem& problem_;
   const OrbitOptions& options_;
-  double special_ = std::numeric_limits<double>::quiet_NaN();  // where the last special point is
+  double singular_ = std::numeric_limits<double>::quiet_NaN();  // where the last branch point is
+  int waits_ = 0;
 };
 
 /// Thrown where a finer mesh is needed and there may be one.
@@ -121,20 +124,24 @@ bool is_at_rest(const OrbitProblem& problem, const BranchPoint& point) {
   return orbit.rowwise().maxCoeff() == orbit.rowwise().minCoeff();
 }
 
-/// The signs that tell special points, and how many multipliers are outside the unit circle.
-std::vector<Index> signs_at(const OrbitProblem& problem, const CurvePoint& point) {
+/// Whether a point has the signs that are known of it.
+bool agrees(const OrbitProblem& problem, const CurvePoint& point, const Signs& signs) {
+  const auto differs = [](int known, double value) { return known * sign_of(value) < 0; };
+  if (differs(signs.parameter, point.tangent(point.tangent.size() - 1))) return false;
   Vector functions(std::ssize(problem.test_types()));
   problem.test(point.unknowns, point.parameters, point.regime, functions);
-  std::vector<Index> signs{sign_of(point.tangent(point.tangent.size() - 1))};
-  for (const double value : functions) signs.push_back(sign_of(value));
+  for (Index i = 0; i < functions.size(); ++i) {
+    if (differs(signs.functions[static_cast<std::size_t>(i)], functions(i))) return false;
+  }
   ComplexVector eigenvalues;
-  if (problem.eigenvalues(point.unknowns, point.parameters, point.regime, eigenvalues))
-    signs.push_back((eigenvalues.real().array() > 0).count());
-  return signs;
+  return signs.unstable < 0 ||
+         !problem.eigenvalues(point.unknowns, point.parameters, point.regime, eigenvalues) ||
+         (eigenvalues.real().array() > 0).count() == signs.unstable;
 }
 
-/// Puts a branch on a mesh that fits where it stands; false if no mesh of this resolution does. It is left
-/// where it is so near to a special point that this would be passed, or come to lie ahead again.
+/// Puts a branch on a mesh that fits where it stands; false if no mesh of this resolution does. It may stay
+/// on its own for a while where the other one has a special point, which lies elsewhere there, be it by 1e-8,
+/// on the other side of it: that would be told twice.
 bool renew(OrbitProblem& problem, MeshWatch& meshes, Branch& branch, const TraceOptions& options) {
   Progress& progress = *branch.checkpoint->ahead;
   const Regime before = progress.here.regime;
@@ -146,7 +153,7 @@ bool renew(OrbitProblem& problem, MeshWatch& meshes, Branch& branch, const Trace
   const Vector bend = carrier(progress.bend.cwiseProduct(progress.here.scale));
   CurvePoint here = progress.here;
   if (!carrier.carry(corrector, here)) return false;
-  if (signs_at(problem, here) != signs_at(problem, progress.here)) return true;
+  if (!agrees(problem, here, progress.signs) && meshes.can_wait()) return true;
   progress.here = here;
   progress.bend = bend.cwiseQuotient(progress.here.scale);
   Carrier(problem, progress.start.regime, *regime).carry(corrector, progress.start);
