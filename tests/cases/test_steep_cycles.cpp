@@ -104,7 +104,8 @@ TEST_CASE("Coupled pendula go round as AUTO-07p has it, to where they come to re
 TEST_CASE("Canards fold and double their period nearer to one another than can be told, each once",
           "[cycles]") {
   // M. T. M. Koper, Physica D 80 (1995) 72: where the slow scales part further, multipliers pass -1 and 1
-  // ever nearer together. All digits by degree 7 and by a tolerance of 1e-9.
+  // ever nearer together. AUTO-07p on 200 intervals: -7.46088, folds at -6.23500 and -6.28395; all digits by
+  // degree 7 and by a tolerance of 1e-9.
   const std::string koper = R"([model.parameters]
 k = -10
 slow = 0.1
