@@ -52,12 +52,13 @@ Left left_by_solves(const TracedBranch& traced, Index parameter) {
     if (by_entries == nullptr) by_entries = continuation::make_klu_factors(matrix, order);
     REQUIRE(by_blocks.factor() != 0);
     REQUIRE(by_entries->factor(matrix) != 0);
-    Vector x = right;
-    by_blocks.solve(x);
-    left.by_blocks = std::max(left.by_blocks, (matrix * x - right).norm() / (right.norm() + x.norm()));
-    x = right;
-    by_entries->solve(x);
-    left.by_entries = std::max(left.by_entries, (matrix * x - right).norm() / (right.norm() + x.norm()));
+    const auto left_by = [&](auto& factors) {
+      Vector x = right;
+      factors.solve(x);
+      return (matrix * x - right).norm() / (right.norm() + x.norm());
+    };
+    left.by_blocks = std::max(left.by_blocks, left_by(by_blocks));
+    left.by_entries = std::max(left.by_entries, left_by(*by_entries));
   }
   return left;
 }
