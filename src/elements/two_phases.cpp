@@ -31,38 +31,79 @@ Integral integral(double q, double a, double b, const Complex& at_a, const Compl
   return {value, (b * at_b - a * at_a) / (two_pi * q) - value / q};
 }
 
-/// The motion along one line, Re sum y_a e^{j q_a theta}.
+int most(const std::vector<Line>& lines, int Line::*which) {
+  int most = 0;
+  for (const Line& line : lines) most = std::max(most, std::abs(line.*which));
+  return most;
+}
+
+/// k + l s/w of each line.
+Vector frequencies(const std::vector<Line>& lines, double ratio) {
+  Vector q(std::ssize(lines));
+  std::transform(lines.begin(), lines.end(), q.begin(),
+                 [ratio](const Line& line) { return line.k + line.l * ratio; });
+  return q;
+}
+
+/// e^{j(k theta_1 + l theta_2)} of lines, by powers of those of k = 1 and l = 1.
+class Turns {
+ public:
+  explicit Turns(const std::vector<Line>& lines)
+      : lines_(lines), of_k_(most(lines, &Line::k) + 1), of_l_(most(lines, &Line::l) + 1) {}
+
+  void set(double first, double second, ComplexVector& e) {
+    set_powers(first, of_k_);
+    set_powers(second, of_l_);
+    e.resize(std::ssize(lines_));
+    for (Index a = 0; a < e.size(); ++a) {
+      const auto [k, l] = lines_[static_cast<std::size_t>(a)];
+      e(a) = of_k_(k) * (l < 0 ? std::conj(of_l_(-l)) : of_l_(l));
+    }
+  }
+
+ private:
+  static void set_powers(double angle, ComplexVector& powers) {
+    const Complex one = std::polar(1.0, angle);
+    powers(0) = 1;
+    for (Index i = 1; i < powers.size(); ++i) powers(i) = powers(i - 1) * one;
+  }
+
+  const std::vector<Line>& lines_;
+  ComplexVector of_k_;
+  ComplexVector of_l_;
+};
+
+/// The motion along the line theta_2 = (s/w) theta_1, Re sum y_a e^{j q_a theta_1}.
 class Along {
  public:
   /// What is zero does not count.
-  Along(const Vector& q, const ComplexVector& y) {
-    const Index count = (y.array() != 0.0).count();
-    q_.resize(count);
-    y_.resize(count);
-    for (Index a = 0, k = 0; a < q.size(); ++a) {
-      if (y(a) == 0.0) continue;
-      q_(k) = q(a);
-      y_(k++) = y(a);
-    }
+  Along(const std::vector<Line>& lines, const ComplexVector& y, double ratio)
+      : lines_(moving(lines, y)),
+        ratio_(ratio),
+        q_(frequencies(lines_, ratio)),
+        y_(q_.size()),
+        turns_(lines_) {
+    std::copy_if(y.begin(), y.end(), y_.begin(), [](const Complex& one) { return one != 0.0; });
   }
 
   struct Local {
     double value, first, second;
   };
-  Local at(double theta) const {
+  Local at(double theta) {
     Local sum{0, 0, 0};
+    turns_.set(theta, ratio_ * theta, e_);
     for (Index a = 0; a < q_.size(); ++a) {
-      const Complex turned = y_(a) * std::polar(1.0, q_(a) * theta);
+      const Complex turned = y_(a) * e_(a);
       sum.value += turned.real();
       sum.first -= q_(a) * turned.imag();
       sum.second -= q_(a) * q_(a) * turned.real();
     }
     return sum;
   }
-  double value(double theta) const { return at(theta).value; }
+  double value(double theta) { return at(theta).value; }
 
   /// Where it turns back between a and b.
-  std::vector<double> turns(double a, double b) const {
+  std::vector<double> turns(double a, double b) {
     if (q_.size() == 0) return {};
     const double fastest = q_.cwiseAbs().maxCoeff();
     const auto steps = static_cast<Index>(std::ceil((b - a) / two_pi * fastest * samples));
@@ -96,8 +137,20 @@ class Along {
  private:
   static constexpr double samples = 12;  // in a period of the fastest
 
+  static std::vector<Line> moving(const std::vector<Line>& lines, const ComplexVector& y) {
+    std::vector<Line> moving;
+    for (std::size_t a = 0; a < lines.size(); ++a) {
+      if (y(static_cast<Index>(a)) != 0.0) moving.push_back(lines[a]);
+    }
+    return moving;
+  }
+
+  std::vector<Line> lines_;
+  double ratio_;
   Vector q_;
   ComplexVector y_;
+  Turns turns_;  // of lines_
+  ComplexVector e_;
 };
 
 /// An arc of stick, f = k (x - z) with z = x(anchor) - direction S, or 0 where nothing has set it; or,
@@ -110,7 +163,7 @@ struct SliderArc {
 };
 
 /// What a slider does from theta = -pi to pi, settled over some periods before.
-std::vector<SliderArc> slider_arcs(const Along& x, double threshold) {
+std::vector<SliderArc> slider_arcs(Along& x, double threshold) {
   constexpr int before = 3;
   const double begin = -pi - two_pi * before;
   std::vector<double> ends = x.turns(begin, pi);
@@ -154,7 +207,7 @@ std::vector<SliderArc> slider_arcs(const Along& x, double threshold) {
   return arcs;
 }
 
-/// Over one arc, of f of stick less what is held since its anchor, with rates by s/w.
+/// Over one arc, with rates by s/w.
 struct SlideIntegrals {
   const Vector& q;
   Vector by_ratio;  // of q
@@ -166,64 +219,43 @@ struct SlideIntegrals {
     return rated(-by_ratio(a),
                  integral(-q(a), arc.begin, arc.end, std::conj(at_begin(a)), std::conj(at_end(a))));
   }
-  /// Of e^{j(q_b - q_a) theta} and e^{-j(q_b + q_a) theta}.
-  Integral direct(Index a, Index b, const Integral& alone) const {
-    return held(at_anchor(b), by_ratio(b), alone,
-                rated(by_ratio(b) - by_ratio(a),
-                      integral(q(b) - q(a), arc.begin, arc.end, at_begin(b) * std::conj(at_begin(a)),
-                               at_end(b) * std::conj(at_end(a)))));
+  /// Of e^{j(q_b - q_a) theta}; where a and b change places, their conjugates.
+  Integral direct(Index a, Index b) const {
+    return rated(by_ratio(b) - by_ratio(a),
+                 integral(q(b) - q(a), arc.begin, arc.end, at_begin(b) * std::conj(at_begin(a)),
+                          at_end(b) * std::conj(at_end(a))));
   }
-  Integral turned(Index a, Index b, const Integral& alone) const {
-    return held(std::conj(at_anchor(b)), -by_ratio(b), alone,
-                rated(-by_ratio(b) - by_ratio(a),
-                      integral(-q(b) - q(a), arc.begin, arc.end, std::conj(at_begin(b) * at_begin(a)),
-                               std::conj(at_end(b) * at_end(a)))));
+  /// Of e^{-j(q_b + q_a) theta}, whichever is a.
+  Integral turned(Index a, Index b) const {
+    return rated(-by_ratio(b) - by_ratio(a),
+                 integral(-q(b) - q(a), arc.begin, arc.end, std::conj(at_begin(b) * at_begin(a)),
+                          std::conj(at_end(b) * at_end(a))));
+  }
+  /// Of e^{-j q_a theta} e^{j q_b theta}, or its conjugate, less what is held of the latter since the anchor.
+  Integral less_held(Integral moving, Index b, bool conjugate, const Integral& alone) const {
+    if (arc.direction == 0) return moving;
+    const Complex at = conjugate ? std::conj(at_anchor(b)) : at_anchor(b);
+    const double rate = conjugate ? -by_ratio(b) : by_ratio(b);
+    moving.value -= at * alone.value;
+    moving.rate -= at * (Complex(0, rate * arc.anchor) * alone.value + alone.rate);
+    return moving;
   }
 
  private:
   static Integral rated(double rate, const Integral& by_q) { return {by_q.value, rate * by_q.rate}; }
-  Integral held(const Complex& at, double rate, const Integral& alone, const Integral& moving) const {
-    if (arc.direction == 0) return moving;
-    return {moving.value - at * alone.value,
-            moving.rate - at * (Complex(0, rate * arc.anchor) * alone.value + alone.rate)};
-  }
 };
 
 }  // namespace
 
 TwoPhases::TwoPhases(std::vector<Line> lines, Index places)
-    : lines_(std::move(lines)), places_(places), most_k_(most(&Line::k)), most_l_(most(&Line::l)) {}
-
-int TwoPhases::most(int Line::*which) const {
-  int most = 0;
-  for (const Line& line : lines_) most = std::max(most, std::abs(line.*which));
-  return most;
-}
-
-/// k + l s/w of each line.
-Vector TwoPhases::frequencies(double ratio) const {
-  Vector q(std::ssize(lines_));
-  std::transform(lines_.begin(), lines_.end(), q.begin(),
-                 [ratio](const Line& line) { return line.k + line.l * ratio; });
-  return q;
-}
+    : lines_(std::move(lines)),
+      places_(places),
+      most_k_(most(lines_, &Line::k)),
+      most_l_(most(lines_, &Line::l)) {}
 
 /// What a mean over theta_1 from one p counts in a coefficient.
 double TwoPhases::share(Index a) const {
   return (lines_[static_cast<std::size_t>(a)] == Line{0, 0} ? 1.0 : 2.0) / static_cast<double>(places_);
-}
-
-/// e^{j(k theta_1 + l theta_2)} of all lines.
-void TwoPhases::set_turns(double first, double second, ComplexVector& e) const {
-  ComplexVector of_k(most_k_ + 1);
-  ComplexVector of_l(2 * most_l_ + 1);
-  for (int k = 0; k <= most_k_; ++k) of_k(k) = std::polar(1.0, k * first);
-  for (int l = -most_l_; l <= most_l_; ++l) of_l(most_l_ + l) = std::polar(1.0, l * second);
-  e.resize(std::ssize(lines_));
-  for (Index a = 0; a < e.size(); ++a) {
-    const Line& line = lines_[static_cast<std::size_t>(a)];
-    e(a) = of_k(line.k) * of_l(most_l_ + line.l);
-  }
 }
 
 void TwoPhases::rest(LineForce& out) const {
@@ -236,20 +268,20 @@ void TwoPhases::rest(LineForce& out) const {
 /// f/k alone, by Gauss's nodes over the arcs.
 void TwoPhases::slide_force(double threshold, const ComplexVector& x, double ratio,
                             ComplexVector& force) const {
-  const Vector q = frequencies(ratio);
-  const auto fastest = static_cast<int>(2 * std::ceil(q.cwiseAbs().maxCoeff()));
+  const auto fastest = static_cast<int>(2 * std::ceil(frequencies(lines_, ratio).cwiseAbs().maxCoeff()));
   force.setZero(x.size());
+  Turns turns(lines_);
   ComplexVector e;
   ComplexVector turn;
   for (Index place = 0; place < places_; ++place) {
     const double p = two_pi * static_cast<double>(place) / static_cast<double>(places_);
-    set_turns(0, p, turn);
-    const Along along(q, turn.cwiseProduct(x));
+    turns.set(0, p, turn);
+    Along along(lines_, turn.cwiseProduct(x), ratio);
     for (const SliderArc& arc : slider_arcs(along, threshold)) {
       const double set = arc.direction * threshold;
       const double start = arc.sticks && arc.direction != 0 ? along.value(arc.anchor) : 0;
       each_gauss_node(arc.begin, arc.end, fastest, [&](double theta, double weight) {
-        set_turns(theta, p + ratio * theta, e);
+        turns.set(theta, p + ratio * theta, e);
         const double stick = arc.sticks ? (x.transpose() * e).value().real() - start : 0;
         force += (weight / two_pi * (stick + set)) * e.conjugate();
       });
@@ -267,31 +299,42 @@ void TwoPhases::slide(double stiffness, double threshold, const ComplexVector& x
   }
   rest(out);
   const Index n = std::ssize(lines_);
-  const Vector q = frequencies(ratio);
+  const Vector q = frequencies(lines_, ratio);
   SlideIntegrals over{q, Vector(n), {}, {}, {}, {}};
+  std::vector<Integral> alone(lines_.size());
   for (Index a = 0; a < n; ++a) over.by_ratio(a) = lines_[static_cast<std::size_t>(a)].l;
+  Turns turns(lines_);
   ComplexVector turn;
   for (Index place = 0; place < places_; ++place) {
     const double p = two_pi * static_cast<double>(place) / static_cast<double>(places_);
-    set_turns(0, p, turn);
+    turns.set(0, p, turn);
     const ComplexVector y = turn.cwiseProduct(x);
-    for (const SliderArc& arc : slider_arcs({q, y}, threshold)) {
+    Along along(lines_, y, ratio);
+    for (const SliderArc& arc : slider_arcs(along, threshold)) {
       over.arc = arc;
-      set_turns(arc.begin, ratio * arc.begin, over.at_begin);
-      set_turns(arc.end, ratio * arc.end, over.at_end);
-      set_turns(arc.anchor, ratio * arc.anchor, over.at_anchor);
+      turns.set(arc.begin, ratio * arc.begin, over.at_begin);
+      turns.set(arc.end, ratio * arc.end, over.at_end);
+      turns.set(arc.anchor, ratio * arc.anchor, over.at_anchor);
+      const double set = arc.direction * threshold;
+      const auto add = [&](Index a, Index b, const Integral& direct, const Integral& turned) {
+        const Complex half = 0.5 * share(a) * std::conj(turn(a));
+        const auto& at = alone[static_cast<std::size_t>(a)];
+        const Integral straight = over.less_held(direct, b, false, at);
+        const Integral mirrored = over.less_held(turned, b, true, at);
+        out.linear(a, b) += half * turn(b) * straight.value;
+        out.conjugate(a, b) += half * std::conj(turn(b)) * mirrored.value;
+        out.by_ratio(a) += half * (y(b) * straight.rate + std::conj(y(b)) * mirrored.rate);
+      };
       for (Index a = 0; a < n; ++a) {
-        const Complex weight = share(a) * std::conj(turn(a));
-        const Integral alone = over.alone(a);
-        const double set = arc.direction * threshold;
-        out.by_log_load(a) += weight * set * alone.value;
-        out.by_ratio(a) += weight * set * alone.rate;
-        for (Index b = 0; b < n && arc.sticks; ++b) {
-          const Integral direct = over.direct(a, b, alone);
-          const Integral turned = over.turned(a, b, alone);
-          out.linear(a, b) += 0.5 * weight * turn(b) * direct.value;
-          out.conjugate(a, b) += 0.5 * weight * std::conj(turn(b)) * turned.value;
-          out.by_ratio(a) += 0.5 * weight * (y(b) * direct.rate + std::conj(y(b)) * turned.rate);
+        const Integral& own = alone[static_cast<std::size_t>(a)] = over.alone(a);
+        const Complex weight = share(a) * set * std::conj(turn(a));
+        out.by_log_load(a) += weight * own.value;
+        out.by_ratio(a) += weight * own.rate;
+        for (Index b = 0; b <= a && arc.sticks; ++b) {
+          const Integral direct = over.direct(a, b);
+          const Integral turned = over.turned(a, b);
+          add(a, b, direct, turned);
+          if (b != a) add(b, a, {std::conj(direct.value), std::conj(direct.rate)}, turned);
         }
       }
     }
@@ -308,9 +351,10 @@ void TwoPhases::act(const Law& law, const ComplexVector& x, bool derivatives, Li
   const Index fast = times * (most_k_ + 1);
   const Index slow = times * (most_l_ + 1);
   rest(out);
+  Turns turns(lines_);
   ComplexVector e;
   for (Index i = 0; i < fast * slow; ++i) {
-    set_turns(two_pi * static_cast<double>(i / slow) / static_cast<double>(fast),
+    turns.set(two_pi * static_cast<double>(i / slow) / static_cast<double>(fast),
               two_pi * static_cast<double>(i % slow) / static_cast<double>(slow), e);
     const auto [force, slope] = law((x.transpose() * e).value().real());
     const ComplexVector back = e.conjugate() / static_cast<double>(fast * slow);
@@ -331,19 +375,20 @@ double TwoPhases::greatest(const ComplexVector& x) const {
   constexpr Index times = 32;
   const Index fast = times * (most_k_ + 1);
   const Index slow = times * (most_l_ + 1);
-  ComplexMatrix turns(fast, most_k_ + 1);
+  ComplexMatrix fast_turns(fast, most_k_ + 1);
   for (Index i = 0; i < fast; ++i) {
     for (int k = 0; k <= most_k_; ++k)
-      turns(i, k) = std::polar(1.0, two_pi * static_cast<double>(k * i) / static_cast<double>(fast));
+      fast_turns(i, k) = std::polar(1.0, two_pi * static_cast<double>(k * i) / static_cast<double>(fast));
   }
   double greatest = 0;
+  Turns turns(lines_);
   ComplexVector e;
   ComplexVector of_k(most_k_ + 1);
   for (Index place = 0; place < slow; ++place) {
-    set_turns(0, two_pi * static_cast<double>(place) / static_cast<double>(slow), e);
+    turns.set(0, two_pi * static_cast<double>(place) / static_cast<double>(slow), e);
     of_k.setZero();
     for (Index a = 0; a < x.size(); ++a) of_k(lines_[static_cast<std::size_t>(a)].k) += x(a) * e(a);
-    greatest = std::max(greatest, (turns * of_k).real().cwiseAbs().maxCoeff());
+    greatest = std::max(greatest, (fast_turns * of_k).real().cwiseAbs().maxCoeff());
   }
   return greatest;
 }

@@ -57,10 +57,7 @@ class TwoPhases {
   double greatest(const ComplexVector& x) const;
 
  private:
-  int most(int Line::*which) const;
-  void set_turns(double first, double second, ComplexVector& e) const;
   void slide_force(double threshold, const ComplexVector& x, double ratio, ComplexVector& force) const;
-  Vector frequencies(double ratio) const;
   double share(Index a) const;
 
   std::vector<Line> lines_;
