@@ -140,7 +140,11 @@ struct NullVectors {
 NullVectors null_vectors(const ComplexSparse& matrix) {
   const Index n = matrix.rows();
   NullVectors found{continuation::spread(n, 1), continuation::spread(n, 2)};
-  ComplexVector unit = ComplexVector::Zero(n + 1);
+  Factors all_but_singular(matrix);
+  const ComplexVector left = all_but_singular.solve_adjoint(found.left).normalized();
+  const ComplexVector right = all_but_singular.solve(left).normalized();
+  if (right.allFinite()) return {right, all_but_singular.solve_adjoint(right).normalized()};
+  ComplexVector unit = ComplexVector::Zero(n + 1);  // it is singular to the last digit
   unit(n) = 1;
   for (int i = 0; i < 2; ++i) {  // inverse iteration
     Factors factors(matrix, found.left, found.right);
@@ -161,12 +165,14 @@ Matrix curve_of(const Guess& point, const ComplexVector& along, Index order) {
 /// The critical vectors, and what they lead to.
 class Reduction {
  public:
-  Reduction(const Rounds& rounds, Complex multiplier) : rounds_(rounds), multiplier_(multiplier) {
+  Reduction(const Rounds& rounds, Complex multiplier) : rounds_(rounds) {
     const NullVectors found = null_vectors(rounds.matrix(multiplier, false));
     v_ = found.right / rounds.length(found.right);
     psi_ = found.left;
     if (multiplier.imag() == 0) v_ /= largest_entry(v_) / std::abs(largest_entry(v_));
     weight_ = multiplier * psi_.dot(rounds.turned(v_));
+    steady_.emplace(rounds.matrix(1, true));
+    if (multiplier.imag() != 0) twice_.emplace(rounds.matrix(multiplier * multiplier, false));
   }
 
   /// c T, and the size of its terms
@@ -176,7 +182,7 @@ class Reduction {
     Vector direct;
     if (!rounds_.series(expansion, u, direct)) return false;
     if (!rounds_.series(expansion, u.leftCols(3), term)) return false;
-    u.col(2) = -Factors(rounds_.matrix(1, true)).solve(term.cast<Complex>()).real();
+    u.col(2) = -steady_->solve(term.cast<Complex>()).real();
     if (!rounds_.series(expansion, u, term)) return false;
     found = told(term.cast<Complex>(), direct.cast<Complex>());
     return true;
@@ -194,9 +200,8 @@ class Reduction {
       steady += term / lines;
       turning += std::pow(std::conj(way), 2) / static_cast<double>(lines) * term;
     }
-    const Vector mean = -Factors(rounds_.matrix(1, true)).solve(steady).real();
-    const ComplexVector twice =
-        -Factors(rounds_.matrix(multiplier_ * multiplier_, false)).solve(turning.head(rounds_.count()));
+    const Vector mean = -steady_->solve(steady).real();
+    const ComplexVector twice = -twice_->solve(turning.head(rounds_.count()));
     constexpr int further = 4;
     ComplexVector third = ComplexVector::Zero(steady.size());
     ComplexVector direct = third;
@@ -223,10 +228,11 @@ class Reduction {
   Complex cubic(const ComplexVector& term) const { return -psi_.dot(term.head(psi_.size())) / weight_; }
 
   const Rounds& rounds_;
-  Complex multiplier_;
   ComplexVector v_;
   ComplexVector psi_;
   Complex weight_;
+  std::optional<Factors> steady_;  // at z = 1
+  std::optional<Factors> twice_;   // at the multiplier's square
 };
 
 /// b T: of the whole matrix, in which T changes with w as well.

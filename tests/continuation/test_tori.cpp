@@ -53,7 +53,7 @@ class Driven : public Field {
   }
   [[nodiscard]] bool evaluate(double t, const Vector& u, const Vector& p,
                               const FieldValues& out) const override {
-    using Number = Eigen::AutoDiffScalar<Vector>;
+    using Number = Differentiated;
     const auto number = [](double value, Index which) { return Number(value, 6, which); };
     const Number time = number(t, 5);
     const Number mu = number(p(0), 2);
@@ -65,7 +65,7 @@ class Driven : public Field {
     const Number f[] = {growth * a - nu * b - rate * sin(rate * time) - 0.6 * rate * sin(2.0 * rate * time),
                         nu * a + growth * b + 0.5 * rate * cos(rate * time)};
     for (Index i = 0; i < 2; ++i) {
-      const Vector& slopes = f[i].derivatives();
+      const auto& slopes = f[i].derivatives();
       if (out.velocity != nullptr) (*out.velocity)(i) = f[i].value();
       if (out.by_unknowns != nullptr) out.by_unknowns->row(i) = slopes.head(2).transpose();
       if (out.by_parameters != nullptr) out.by_parameters->row(i) = slopes.segment(2, 3).transpose();

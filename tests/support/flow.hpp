@@ -3,6 +3,7 @@
 // Systems u' = f(u, p) for tests, written once: derivatives come by automatic differentiation.
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <unsupported/Eigen/AutoDiff>
 #include <utility>
@@ -12,12 +13,19 @@
 
 namespace arcslip::testing {
 
+/// A number with its derivatives by at most 8 others, which take no allocation.
+constexpr Index most_derivatives = 8;
+using Differentiated =
+    Eigen::AutoDiffScalar<Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_derivatives, 1>>;
+
 /// `f(u, p, out)` for vectors of any number type.
 template <class F>
 class Flow : public continuation::Problem {
  public:
   Flow(Index size, std::vector<std::string> parameters, F f)
-      : size_(size), parameters_(std::move(parameters)), f_(std::move(f)) {}
+      : size_(size), parameters_(std::move(parameters)), f_(std::move(f)) {
+    if (size_ + std::ssize(parameters_) > most_derivatives) throw std::logic_error("Flow: too many numbers");
+  }
 
   Index size() const override { return size_; }
   std::vector<std::string> parameter_names() const override { return parameters_; }
@@ -25,13 +33,13 @@ class Flow : public continuation::Problem {
 
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                               const continuation::Evaluation& out) const override {
-    using Number = Eigen::AutoDiffScalar<Vector>;
+    using Number = Differentiated;
     const Index count = u.size() + p.size();
     std::vector<Number> unknowns;
     std::vector<Number> parameters;
     for (Index i = 0; i < u.size(); ++i) unknowns.emplace_back(u(i), count, i);
     for (Index i = 0; i < p.size(); ++i) parameters.emplace_back(p(i), count, u.size() + i);
-    std::vector<Number> values(static_cast<std::size_t>(size_), Number(0.0, Vector::Zero(count)));
+    std::vector<Number> values(static_cast<std::size_t>(size_), Number(0.0, Number::DerType::Zero(count)));
     f_(unknowns, parameters, values);
     for (Index i = 0; i < size_; ++i) {
       const Number& value = values[static_cast<std::size_t>(i)];
