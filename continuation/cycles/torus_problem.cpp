@@ -11,8 +11,7 @@
 namespace arcslip::continuation {
 
 TorusProblem::TorusProblem(const Problem& base, Index active)
-    : PairProblem(base, active, count_beside_duration(base)),
-      orbits_(dynamic_cast<const PeriodicOrbit*>(&base)) {}
+    : PairProblem(base, active, base.size()), orbits_(dynamic_cast<const PeriodicOrbit*>(&base)) {}
 
 void TorusProblem::fill(BorderedSolver& solver, double a, double b, const Vector& scales) const {
   if (orbits_ == nullptr) {  // [A, b; -1, A - a], A = df/du
@@ -28,7 +27,7 @@ void TorusProblem::fill(BorderedSolver& solver, double a, double b, const Vector
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(2 * whole.nonZeros()));
   for (Index column = 0; column < count_; ++column) {
-    for (SparseMatrix::InnerIterator entry(whole, column); entry && entry.row() < count_; ++entry) {
+    for (SparseMatrix::InnerIterator entry(whole, column); entry; ++entry) {
       const auto add = [&](Index row_part, Index column_part, double factor) {
         entries.emplace_back(static_cast<int>(row_part * count_ + entry.row()),
                              static_cast<int>(column_part * count_ + column), factor * entry.value());
@@ -52,8 +51,7 @@ Vector TorusProblem::turned(const Vector& x) const {
   if (orbits_ == nullptr) return -x;
   Vector result = Vector::Zero(count_);
   for (Index column = 0; column < orbits_->field().size(); ++column) {
-    for (SparseMatrix::InnerIterator entry(at_.sparse_jacobian(), column); entry && entry.row() < count_;
-         ++entry) {
+    for (SparseMatrix::InnerIterator entry(at_.sparse_jacobian(), column); entry; ++entry) {
       if (orbits_->joins_rounds(entry.row(), column)) result(entry.row()) += entry.value() * x(column);
     }
   }

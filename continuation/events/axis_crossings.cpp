@@ -77,7 +77,11 @@ class AxisSearch {
     const double upper = step_.upper();
     const std::optional<double> a = step_.readings.value(which, from);
     const std::optional<double> b = step_.readings.value(which, upper);
-    if (!a || !b || std::max(std::abs(*a), std::abs(*b)) > step_.tolerances.rough * largest_)
+    const auto is_rough = [&](const std::optional<double>& value) {
+      return value && std::abs(*value) <= step_.tolerances.rough * largest_;
+    };
+    // not where it comes from one zero to the next, as from a pair on the axis to a fold
+    if (!is_rough(a) || !is_rough(b) || !is_rough(step_.readings.value(which, 0.5 * (from + upper))))
       return zeros_.first(which, sign, from, upper, step_.tolerances.just_passed);
     return zeros_.by_sign({from, *a, 0}, {upper, *b, 0}, sign, which);
   }

@@ -1,41 +1,64 @@
 // Zeros of functions without derivatives: of the problem's tests and of the user's.
 
 #include <cmath>
+#include <optional>
 
 #include "arcslip/continuation/events/step_search.hpp"
 
 namespace arcslip::continuation {
 namespace {
 
+/// A place of the step, and a function's value there.
+struct Known {
+  double s;
+  double value;
+};
+
+/// As far as a function is known that has a value where the step begins: to its end, or to its first event. A
+/// determinant that has no value at either is rounding before; others are read a little before the event, as
+/// it may be where a curve ends.
+std::optional<Known> known_by(StepSearch& step, std::size_t which, double end, bool is_determinant) {
+  if (step.is_whole() || is_determinant) {
+    const bool has_value =
+        std::isfinite(end) && (step.is_whole() || step.readings.value(which, step.upper()));
+    return has_value ? std::optional(Known{step.upper(), step.at_upper(which, end)}) : std::nullopt;
+  }
+  for (const double left : {0.0, 1e-3, 1e-2, 1e-1}) {
+    const double s = (1 - left) * step.upper();
+    if (const std::optional<double> value = step.readings.value(which, s)) return Known{s, *value};
+  }
+  return std::nullopt;
+}
+
 void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
-  const double end = step.functions_at_end[i];
   const auto index = static_cast<Index>(i);
   const std::size_t which = step.readings.function(index);
-  if (!std::isfinite(end) || !std::isfinite(step.watch.kept().front().functions[i]))
-    return;  // no zero is told
-  if (!step.is_whole() && !step.readings.value(which, step.upper())) return;
+  if (!std::isfinite(step.watch.kept().front().functions[i])) return;  // no zero is told
+  const std::optional<Known> known =
+      known_by(step, which, step.functions_at_end[i], step.watch.type(i) == PointType::branch_point);
+  if (!known) return;
+  const auto [to, after] = *known;
   const int before = step.signs.functions[i];
   // A determinant that is rounding as a branch begins, where symmetries are lost, tells nothing.
   if (before == 0 && step.watch.type(i) == PointType::branch_point) return;
-  const double after = step.at_upper(which, end);
   const bool changes = before != 0 && before != sign_of(after);
   const bool may_vanish = step.watch.function_may_vanish(i, step.chord(), after);
   if (const std::optional<std::size_t> piece = step.watch.piece_of(i)) {
     ZeroSearch zeros(step.stepper, step.readings, {.jumps_count = false, .left_over = 1e-5});
     const std::size_t pieces = step.readings.function(static_cast<Index>(*piece));
     step.note(kind, step.watch.type(i), index,
-              zeros.first_of_pieces({which, pieces}, before, may_vanish, 0, step.upper()));
+              zeros.first_of_pieces({which, pieces}, before, may_vanish, 0, to));
   } else if (changes || may_vanish) {
     // A determinant is found to rounding, and runs through decades.
     const bool is_sharp = step.watch.type(i) == PointType::branch_point;
     ZeroSearch zeros(step.stepper, step.readings,
                      {.jumps_count = false, .left_over = is_sharp ? 1e-8 : ZeroOptions{}.left_over});
-    const Zero zero = zeros.first(which, before, 0, step.upper(), step.tolerances.located);
+    const Zero zero = zeros.first(which, before, 0, to, step.tolerances.located);
     step.note(kind, step.watch.type(i), index, zero);
     if (changes && zero.state == Zero::State::absent && step.watch.type(i) == PointType::period_doubling)
-      step.note_jump(kind, step.watch.type(i), index,
-                     ZeroSearch(step.stepper, step.readings)
-                         .first(which, before, 0, step.upper(), step.tolerances.located));
+      step.note_jump(
+          kind, step.watch.type(i), index,
+          ZeroSearch(step.stepper, step.readings).first(which, before, 0, to, step.tolerances.located));
   }
 }
 

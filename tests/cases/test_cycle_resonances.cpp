@@ -1,6 +1,7 @@
 // Points of codimension two on curves of special points of cycles and maps.
 
 #include "cycle_cases.hpp"
+#include "temporary_folder.hpp"
 
 namespace {
 
@@ -203,4 +204,35 @@ from = -0.5
 to = 1
 )case");
   check_values(at(hopf, PointType::generalized_hopf, "nu"), {0}, 1e-8);
+}
+
+TEST_CASE("Curves of tori end on the folds of cycles, on two meshes and on branches across them",
+          "[cycles][numbers]") {
+  const Run usual("peroxidase_tori");
+  const Run fine("peroxidase_tori",
+                 {"cycles.degree=6", "cycles.intervals=60", "cycles.tolerance=1e-9", "branch.from=0.5"});
+  std::vector<double> resonances;
+  for (const Run* run : {&usual, &fine}) {
+    REQUIRE(run->traced.size() == 2);
+    check_values(at(run->traced, PointType::start, "k7"), {0.716433564, 0.818565885},
+                 1e-8);  // MatCont, AUTO-07p
+    CHECK(at(run->traced, PointType::branch_point, "k7").empty());
+    CHECK(count(run->traced[0], PointType::chenciner) == 0);
+    check_values(values_at(run->traced[1], PointType::chenciner, "k7"), {1.757359574}, 1e-8);
+    for (const TracedBranch& traced : run->traced) CHECK(traced.branch.stop == Stop::requested);
+    resonances = at(run->traced, PointType::resonance_1_1, "k8");
+    check_values(resonances, {0.72395704, 0.93042203}, 1e-8);
+  }
+  // tori leave cycles beside their fold on one side of it alone
+  const std::string text = read(source_folder() + "/problems/peroxidase_tori.toml");
+  const std::string across = text.substr(0, text.find("[branch]")) +
+                             "[branch]\nparameter = \"k7\"\nfrom = 4\nto = 1.15\nswitching = true\n";
+  const double resonance = at(usual.traced, PointType::resonance_1_1, "k7")[0];
+  for (const double beside : {-2e-3, 0.0, 2e-3}) {
+    const auto all = traced_of(across, {"model.parameters.k8=" + std::to_string(resonances[0] + beside)});
+    REQUIRE(all.size() == 2);
+    CHECK(count(all[1], PointType::fold) == 2);
+    if (beside == 0) CHECK_THAT(at(all, PointType::fold, "k7")[0], WithinAbs(resonance, 1e-6));
+    if (beside != 0) CHECK(count(all[1], PointType::neimark_sacker) == (beside < 0 ? 2 : 1));
+  }
 }

@@ -7,10 +7,12 @@
 
 namespace arcslip::continuation {
 
-/// Cycles with a pair of multipliers z of modulus 1, z^2 = 2 kappa z - 1: v' = T f_u v with v(1) = z v(0) has
-/// a solution. Its matrix is the Jacobian of the cycle without T and phase, with z u(0) in place of u(0) in
-/// u(1) = u(0); e_0 = kappa = cos(theta), z = e^(j theta). It stays regular where kappa = 1 or -1; beyond
-/// these the pair is real, z and 1/z. Of a map f the matrix is df/du - z. Along a curve points are found
+/// Cycles with a pair of multipliers z of modulus 1, z^2 = 2 kappa z - 1: v' = T f_u v + tau f with v(1) = z
+/// v(0) has a solution without phase. Its matrix is the Jacobian of the cycle, with z u(0) in place of u(0)
+/// in u(1) = u(0); e_0 = kappa = cos(theta), z = e^(j theta). Its determinant is that of the monodromy matrix
+/// less z over 1 - z: without T and phase the multiplier 1 of all cycles would be a root as well, and the
+/// curve would cross that of folds, on which kappa = 1. It stays regular where kappa = 1 or -1; beyond these
+/// the pair is real, z and 1/z. Of a map f the matrix is df/du - z. Along a curve points are found
 /// where z is a root of 1, to the fourth, and Chenciner points.
 class TorusProblem : public PairProblem {
  public:
