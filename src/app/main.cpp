@@ -8,6 +8,7 @@
 
 #include "app/command.hpp"
 #include "app/commands.hpp"
+#include "app/freed_memory.hpp"
 #include "app/interrupt.hpp"
 #include "app/wrap.hpp"
 #include "arcslip/cases/case_file.hpp"
@@ -123,6 +124,7 @@ int arcslip::guarded(const std::function<int()>& command) {
 
 int main(int argc, char** argv) {
   arcslip::keep_standard_streams();
+  arcslip::keep_freed_memory();
 #ifdef SIGXFSZ
   std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit is reported as one that cannot be written
 #endif
