@@ -187,7 +187,7 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
                                        [](const TracedBranch& one) { return !one.branch.complete(); });
   const bool is_whole = unfinished == across.end();
   if (!is_whole && !is_end(unfinished->branch.stop)) none.stop = unfinished->branch.stop;
-  std::string why = is_whole ? "" : ": " + unfinished->branch.explanation;
+  std::string why = ": " + (is_whole ? "no cycles were found" : unfinished->branch.explanation);
   if (is_whole && !across.empty())
     why = why_none(*subject.built.problem, across.front().branch, options.parameter);
   return {unstarted(request, none,

@@ -166,7 +166,8 @@ void begin_from(const CaseBranch& request, Subject& subject) {
   subject.failure.clear();
 }
 
-/// Those on which the first points of curves are looked for, `first` or the cycles that leave it.
+/// Those on which the first points of curves are looked for, `first` or the cycles that leave it; and,
+/// without points, what else was not traced to its end.
 std::vector<TracedBranch> branches_across(const CurveRequest& asked, const CaseBranch& first,
                                           const Subject& subject, const TimeBudget& time) {
   const auto across = std::make_shared<CaseBranch>(first);
@@ -176,7 +177,12 @@ std::vector<TracedBranch> branches_across(const CurveRequest& asked, const CaseB
   across->switching = of_cycles;
   across->options.max_seconds = time.rest().max_seconds;
   std::vector<TracedBranch> traced = trace_branches(across, subject, TimeBudget(across->options), {});
-  if (of_cycles) std::erase_if(traced, [](const TracedBranch& one) { return cycles_of(one) == nullptr; });
+  if (!of_cycles) return traced;
+  std::erase_if(traced,
+                [](const TracedBranch& one) { return cycles_of(one) == nullptr && one.branch.complete(); });
+  for (TracedBranch& one : traced) {
+    if (cycles_of(one) == nullptr) one.branch.points.clear();
+  }
   return traced;
 }
 

@@ -236,3 +236,18 @@ TEST_CASE("Curves of tori end on the folds of cycles, on two meshes and on branc
     if (beside != 0) CHECK(count(all[1], PointType::neimark_sacker) == (beside < 0 ? 2 : 1));
   }
 }
+
+TEST_CASE("A curve of cycles without one to begin on says why there is none", "[cycles]") {
+  const auto why = [](const std::string& name, const Settings& settings) {
+    const Run run(name, settings);
+    REQUIRE(run.traced.size() == 1);
+    CHECK(run.traced[0].branch.points.empty());
+    return run.traced[0].branch.explanation;
+  };
+  CHECK(why("peroxidase_tori", {"branch.window=[0.55, 4]"}) ==
+        "no neimark_sacker was found for k7 = 0.55 to 4 at k8 = 0.5: no solution was found from the guess at "
+        "k7 = "
+        "0.55: Newton's method diverges");
+  CHECK(why("enzyme_cycle_folds", {"model.parameters.s0=1", "branch.from=0.5", "branch.to=2"}) ==
+        "no cycle_fold was found for rho = 0 to 6 at s0 = 1: no cycles were found");
+}
