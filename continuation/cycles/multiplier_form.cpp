@@ -165,13 +165,12 @@ Matrix curve_of(const Guess& point, const ComplexVector& along, Index order) {
 /// The critical vectors, and what they lead to.
 class Reduction {
  public:
-  Reduction(const Rounds& rounds, Complex multiplier) : rounds_(rounds) {
+  Reduction(const Rounds& rounds, Complex multiplier) : rounds_(rounds), steady_(rounds.matrix(1, true)) {
     const NullVectors found = null_vectors(rounds.matrix(multiplier, false));
     v_ = found.right / rounds.length(found.right);
     psi_ = found.left;
     if (multiplier.imag() == 0) v_ /= largest_entry(v_) / std::abs(largest_entry(v_));
     weight_ = multiplier * psi_.dot(rounds.turned(v_));
-    steady_.emplace(rounds.matrix(1, true));
     if (multiplier.imag() != 0) twice_.emplace(rounds.matrix(multiplier * multiplier, false));
   }
 
@@ -182,7 +181,7 @@ class Reduction {
     Vector direct;
     if (!rounds_.series(expansion, u, direct)) return false;
     if (!rounds_.series(expansion, u.leftCols(3), term)) return false;
-    u.col(2) = -steady_->solve(term.cast<Complex>()).real();
+    u.col(2) = -steady_.solve(term.cast<Complex>()).real();
     if (!rounds_.series(expansion, u, term)) return false;
     found = told(term.cast<Complex>(), direct.cast<Complex>());
     return true;
@@ -200,7 +199,7 @@ class Reduction {
       steady += term / lines;
       turning += std::pow(std::conj(way), 2) / static_cast<double>(lines) * term;
     }
-    const Vector mean = -steady_->solve(steady).real();
+    const Vector mean = -steady_.solve(steady).real();
     const ComplexVector twice = -twice_->solve(turning.head(rounds_.count()));
     constexpr int further = 4;
     ComplexVector third = ComplexVector::Zero(steady.size());
@@ -228,11 +227,11 @@ class Reduction {
   Complex cubic(const ComplexVector& term) const { return -psi_.dot(term.head(psi_.size())) / weight_; }
 
   const Rounds& rounds_;
+  Factors steady_;                // at z = 1
+  std::optional<Factors> twice_;  // at the square of a multiplier that is not real
   ComplexVector v_;
   ComplexVector psi_;
   Complex weight_;
-  std::optional<Factors> steady_;  // at z = 1
-  std::optional<Factors> twice_;   // at the multiplier's square
 };
 
 /// b T: of the whole matrix, in which T changes with w as well.

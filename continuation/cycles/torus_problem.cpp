@@ -11,7 +11,7 @@
 namespace arcslip::continuation {
 
 TorusProblem::TorusProblem(const Problem& base, Index active)
-    : PairProblem(base, active, base.size()), orbits_(dynamic_cast<const PeriodicOrbit*>(&base)) {}
+    : PairProblem(base, active), orbits_(dynamic_cast<const PeriodicOrbit*>(&base)) {}
 
 void TorusProblem::fill(BorderedSolver& solver, double a, double b, const Vector& scales) const {
   if (orbits_ == nullptr) {  // [A, b; -1, A - a], A = df/du

@@ -18,14 +18,12 @@ struct Known {
 /// determinant that has no value at either is rounding before; others are read a little before the event, as
 /// it may be where a curve ends.
 std::optional<Known> known_by(StepSearch& step, std::size_t which, double end, bool is_determinant) {
-  if (step.is_whole() || is_determinant) {
-    const bool has_value =
-        std::isfinite(end) && (step.is_whole() || step.readings.value(which, step.upper()));
-    return has_value ? std::optional(Known{step.upper(), step.at_upper(which, end)}) : std::nullopt;
-  }
+  if ((step.is_whole() || is_determinant) && !std::isfinite(end)) return std::nullopt;
+  if (step.is_whole()) return Known{step.upper(), end};
   for (const double left : {0.0, 1e-3, 1e-2, 1e-1}) {
     const double s = (1 - left) * step.upper();
     if (const std::optional<double> value = step.readings.value(which, s)) return Known{s, *value};
+    if (is_determinant) break;
   }
   return std::nullopt;
 }
@@ -34,13 +32,13 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
   const auto index = static_cast<Index>(i);
   const std::size_t which = step.readings.function(index);
   if (!std::isfinite(step.watch.kept().front().functions[i])) return;  // no zero is told
-  const std::optional<Known> known =
-      known_by(step, which, step.functions_at_end[i], step.watch.type(i) == PointType::branch_point);
+  const bool is_determinant = step.watch.type(i) == PointType::branch_point;
+  const std::optional<Known> known = known_by(step, which, step.functions_at_end[i], is_determinant);
   if (!known) return;
   const auto [to, after] = *known;
   const int before = step.signs.functions[i];
   // A determinant that is rounding as a branch begins, where symmetries are lost, tells nothing.
-  if (before == 0 && step.watch.type(i) == PointType::branch_point) return;
+  if (before == 0 && is_determinant) return;
   const bool changes = before != 0 && before != sign_of(after);
   const bool may_vanish = step.watch.function_may_vanish(i, step.chord(), after);
   if (const std::optional<std::size_t> piece = step.watch.piece_of(i)) {
@@ -50,9 +48,8 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
               zeros.first_of_pieces({which, pieces}, before, may_vanish, 0, to));
   } else if (changes || may_vanish) {
     // A determinant is found to rounding, and runs through decades.
-    const bool is_sharp = step.watch.type(i) == PointType::branch_point;
     ZeroSearch zeros(step.stepper, step.readings,
-                     {.jumps_count = false, .left_over = is_sharp ? 1e-8 : ZeroOptions{}.left_over});
+                     {.jumps_count = false, .left_over = is_determinant ? 1e-8 : ZeroOptions{}.left_over});
     const Zero zero = zeros.first(which, before, 0, to, step.tolerances.located);
     step.note(kind, step.watch.type(i), index, zero);
     if (changes && zero.state == Zero::State::absent && step.watch.type(i) == PointType::period_doubling)

@@ -9,7 +9,7 @@
 
 namespace arcslip::continuation {
 
-HopfProblem::HopfProblem(const Problem& base, Index active) : PairProblem(base, active, base.size()) {}
+HopfProblem::HopfProblem(const Problem& base, Index active) : PairProblem(base, active) {}
 
 void HopfProblem::fill(BorderedSolver& solver, double /*a*/, double b, const Vector& scales) const {
   if (at_.sparse()) {

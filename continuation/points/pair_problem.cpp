@@ -6,22 +6,21 @@
 
 namespace arcslip::continuation {
 
-PairProblem::PairProblem(const Problem& base, Index active, Index count)
+PairProblem::PairProblem(const Problem& base, Index active)
     : ExtendedProblem(base, active, 2),
-      count_(count),
-      solver_(make_bordered_solver(2 * count, 2, base.sparse())),
-      column_(spread(2 * count, 1)),
-      row_(spread(2 * count, 2)),
+      count_(base.size()),
+      solver_(make_bordered_solver(2 * count_, 2, base.sparse())),
+      column_(spread(2 * count_, 1)),
+      row_(spread(2 * count_, 2)),
       second_(base),
-      right_(2 * count + 2),
+      right_(2 * count_ + 2),
       left_{right_, right_} {}
 
 bool PairProblem::solve_borders(double kappa) const {
   const double a = sum(kappa).value;
   const double b = product(kappa).value;
-  const auto scale = scale_.head(count_);
   Vector scales(2 * count_);
-  scales << scale, scale;
+  scales << scale_, scale_;
   fill(*solver_, a, b, scales);
   const auto first = column_.head(count_);
   const auto second = column_.tail(count_);
@@ -73,21 +72,18 @@ bool PairProblem::conditions(const BasePoint& point, Vector& values, Matrix* gra
   if (gradients == nullptr) return true;
   const Vector none = Vector::Zero(point.parameters.size());
   gradients->setZero();
-  Matrix weights(base().size(), 2);
+  Matrix weights(count_, 2);
   Matrix columns;
   for (const Index part : {0, 1}) {
-    for (Index j = 0; j < 2; ++j)
-      weights.col(j) = padded(left_[j].segment(part * count_, count_), base().size());
-    const Vector v = right_.segment(part * count_, count_).cwiseProduct(scale_.head(count_));
-    if (!second_.contract(point.unknowns, point.parameters, point.regime, weights, padded(v, base().size()),
-                          none, columns))
+    for (Index j = 0; j < 2; ++j) weights.col(j) = left_[j].segment(part * count_, count_);
+    const Vector v = right_.segment(part * count_, count_).cwiseProduct(scale_);
+    if (!second_.contract(point.unknowns, point.parameters, point.regime, weights, v, none, columns))
       return false;
     gradients->leftCols(columns.rows()) -= columns.transpose();
   }
   // what kappa moves: z^2 v_1, of the matrix and of both borders
   const auto second = right_.segment(count_, count_);
-  const Vector moved =
-      turned(second.cwiseProduct(scale_.head(count_))) + column_.tail(count_) * right_(2 * count_ + 1);
+  const Vector moved = turned(second.cwiseProduct(scale_)) + column_.tail(count_) * right_(2 * count_ + 1);
   const double of_row = row_.tail(count_).dot(second);
   const double a = sum(kappa).slope;
   const double b = product(kappa).slope;

@@ -187,9 +187,12 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
                                        [](const TracedBranch& one) { return !one.branch.complete(); });
   const bool is_whole = unfinished == across.end();
   if (!is_whole && !is_end(unfinished->branch.stop)) none.stop = unfinished->branch.stop;
-  std::string why = ": " + (is_whole ? "no cycles were found" : unfinished->branch.explanation);
-  if (is_whole && !across.empty())
+  std::string why = ": no cycles were found";
+  if (!is_whole) {
+    why = ": " + unfinished->branch.explanation;
+  } else if (!across.empty()) {
     why = why_none(*subject.built.problem, across.front().branch, options.parameter);
+  }
   return {unstarted(request, none,
                     fmt::format("no {} was found for {} = {:g} to {:g} at {} = {:g}{}", asked.name,
                                 asked.active, asked.from, asked.to, options.parameter, asked.seed, why))};

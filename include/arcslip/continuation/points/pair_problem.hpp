@@ -12,8 +12,8 @@ namespace arcslip::continuation {
 ///   [J_0 + z J_1  b] [v]   [0]
 ///   [c^T          0] [g] = [1],    g = 0 (both its parts),    e_0 = kappa.
 ///
-/// It stays regular where both z meet; beyond they are real. J_0 + J_1 may differ from dF/du, of whose first
-/// unknowns they are, in what is constant.
+/// It stays regular where both z meet; beyond they are real. J_0 + J_1 may differ from dF/du in what is
+/// constant.
 class PairProblem : public ExtendedProblem {
  public:
   [[nodiscard]] bool adapt(const BasePoint& point) override;
@@ -25,9 +25,8 @@ class PairProblem : public ExtendedProblem {
     double slope;
   };
 
-  /// `active` becomes an unknown; the matrices are of the first `count` unknowns. The base is kept by
-  /// reference.
-  PairProblem(const Problem& base, Index active, Index count);
+  /// `active` becomes an unknown. The base is kept by reference.
+  PairProblem(const Problem& base, Index active);
 
   virtual ByKappa sum(double kappa) const = 0;      ///< a, of both z
   virtual ByKappa product(double kappa) const = 0;  ///< b
@@ -44,7 +43,7 @@ class PairProblem : public ExtendedProblem {
   double strain() const override;
   long own_evaluations() const override { return second_.evaluations(); }
 
-  Index count_;
+  Index count_;  // unknowns of the base
 
  private:
   [[nodiscard]] bool solve_borders(double kappa) const;
