@@ -145,32 +145,61 @@ std::optional<FactoredJacobian> Corrector::jacobian_at(const CurvePoint& point) 
   return FactoredJacobian{linearization_.sparse_jacobian(), solver_->rows_left(), &factored_scale_};
 }
 
-/// By the factors at the origin, which are at hand, as far as corrections shrink fast, if they are so short
-/// that Newton's first one would be its last: whether they are.
-bool Corrector::approach(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance) {
-  constexpr int most = 3;
-  double limit = shortness * std::sqrt(options_.tolerance);
-  double shrinks = shortness;
+/// Corrects by factors from elsewhere, as `solve` does, as long as corrections shrink fast: from one of
+/// length `last`, and at the rate `rate` to begin with, if that is known. How often.
+template <class Solve>
+int Corrector::shorten(CurvePoint& point, const CurvePoint& origin, double last, double rate,
+                       const Solve& solve) {
+  constexpr int most = 6;
   for (int i = 0; i < most; ++i) {
-    difference(point, origin, correction_);
-    const double gap = distance - normal.dot(correction_);
     if (options_.watch) options_.watch();
     if (!continuation::evaluate(problem_, point.unknowns, point.parameters, point.regime,
                                 {.residual = &before_}))
-      return i > 0;
+      return i;
+    const double length = solve();
+    if (!(length < shortness * last)) return i;
+    add_correction(point, origin);
+    if (i > 0 || rate == 0) rate = length / last;
+    if (rate * length <= 0.5 * options_.tolerance) return i + 1;
+    last = length;
+  }
+  return most;
+}
+
+/// By the factors at the origin, which are at hand, if corrections are so short that Newton's first one would
+/// be its last: whether they are.
+bool Corrector::approach(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance) {
+  const auto solve = [&] {
+    difference(point, origin, correction_);
+    const double gap = distance - normal.dot(correction_);
     correction_ << -before_, 0;
     solver_->solve(correction_);
     correction_.array() *= factored_scale_.array() / origin.scale.array();
     const auto direction = direction_.cwiseProduct(factored_scale_).cwiseQuotient(origin.scale);
     // The factors' own condition is another one, by a multiple of the direction.
     correction_ += (gap - normal.dot(correction_)) / normal.dot(direction) * direction;
+    return correction_.norm();
+  };
+  return shorten(point, origin, std::sqrt(options_.tolerance), shortness, solve) > 0;
+}
+
+/// By the factors of Newton's correction, of length `last`, that led to the point, unless Newton's next one
+/// is known to be short enough: whether it went on, with the contraction.
+bool Corrector::go_on(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance,
+                      double last) {
+  if (!linearization_.sparse() || last < shortness * std::sqrt(options_.tolerance)) return false;
+  double first = 0;
+  const auto solve = [&] {
+    difference(point, origin, correction_);
+    const double gap = distance - normal.dot(correction_);
+    correction_ << -before_, gap;
+    solver_->solve(correction_);
     const double length = correction_.norm();
-    if (!(length < limit)) return i > 0;
-    add_correction(point, origin);
-    if (i > 0) shrinks = length * shortness / limit;
-    if (shrinks * length <= 0.5 * options_.tolerance) break;
-    limit = shortness * length;
-  }
+    if (first == 0) first = length;
+    return length;
+  };
+  if (shorten(point, origin, last, 0, solve) == 0) return false;
+  if (point.iterations == 1) contraction_ = first / last;
   return true;
 }
 
@@ -179,6 +208,7 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
   contraction_ = 0;
   point.iterations = 0;
   bool held = false;
+  bool went_on = false;
   double last_length = 0;
   double last_residual = std::numeric_limits<double>::infinity();
   const auto gap = [&] {
@@ -214,7 +244,8 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     if (!std::isfinite(length)) return Correction::singular;
     // A ratio of two roundings does not count, unless it is too small to shorten a step.
     const auto counts = [&](double ratio) { return ratio < 0.01 || last_residual > rounding_level(point); };
-    if (point.iterations == 1 && !held && counts(length / last_length)) contraction_ = length / last_length;
+    if (point.iterations == 1 && !held && !went_on && counts(length / last_length))
+      contraction_ = length / last_length;
     if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded &&
         point.residual > rounding_level(point)) {
       return Correction::diverging;
@@ -222,6 +253,7 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     last_length = length;
     last_residual = point.residual;
     apply(point, origin);
+    went_on = !held && go_on(point, origin, normal, distance, length);
   }
 }
 

@@ -144,8 +144,12 @@ class Corrector {
   double solve_correction(double change);
   void add_correction(CurvePoint& point, const CurvePoint& origin) const;
   [[nodiscard]] bool has_factors_at(const CurvePoint& origin, double near);
+  template <class Solve>
+  int shorten(CurvePoint& point, const CurvePoint& origin, double last, double rate, const Solve& solve);
   [[nodiscard]] bool approach(CurvePoint& point, const CurvePoint& origin, const Vector& normal,
                               double distance);
+  [[nodiscard]] bool go_on(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance,
+                           double last);
   void apply(CurvePoint& point, const CurvePoint& origin);
   double turn_to_parameter();
   LogProduct determinant(const Vector& scale) const;
