@@ -73,66 +73,98 @@ void append_logs(const Matrix& matrix, double log, std::vector<Complex>& out) {
   }
 }
 
-/// Triangular factors of one sweep, and how the basis behind it is made of that before: block by block.
-struct Sweep {
-  std::vector<Matrix> triangles;
-  Matrix turn;
+/// A basis that goes round by the factors, again and again: its first vectors turn to where most is
+/// stretched.
+class Subspaces {
+ public:
+  explicit Subspaces(const std::vector<Matrix>& factors)
+      : factors_(factors),
+        triangles_(factors.size()),
+        basis_(Matrix::Identity(factors.front().rows(), factors.front().cols())),
+        apart_(basis_.cols(), 1) {}
+
+  void go_round() {
+    const Matrix before = basis_;
+    for (std::size_t j = 0; j < factors_.size(); ++j) {
+      const Eigen::HouseholderQR<Matrix> qr(factors_[j] * basis_);
+      basis_ = qr.householderQ();
+      triangles_[j] = qr.matrixQR().triangularView<Eigen::Upper>();
+    }
+    turn_ = before.transpose() * basis_;
+    find_ends();
+  }
+
+  /// What the factors make of an invariant subspace: e^log times a matrix.
+  struct Part {
+    Matrix matrix;
+    double log = 0;
+  };
+
+  /// Of the subspaces that have parted.
+  std::vector<Part> parts() const {
+    std::vector<Part> result;
+    Index begin = 0;
+    for (const Index end : ends_) {
+      const Index size = end - begin;
+      Part& part = result.emplace_back(Part{Matrix::Identity(size, size)});
+      for (const Matrix& triangle : triangles_) {
+        part.matrix = triangle.block(begin, begin, size, size) * part.matrix;
+        const double length = part.matrix.norm();
+        if (!(length > 0)) break;
+        part.matrix /= length;
+        part.log += std::log(length);
+      }
+      part.matrix = turn_.block(begin, begin, size, size) * part.matrix;
+      begin = end;
+    }
+    return result;
+  }
+
+ private:
+  /// Of subspaces that have parted, to rounding or as far as the factors tell.
+  void find_ends() {
+    constexpr double rounding = 1e-13;
+    constexpr double small = 1e-6;   // what only rounding keeps
+    constexpr double shrinks = 0.5;  // in a round, or rounding keeps it
+    const Index n = turn_.rows();
+    ends_.clear();
+    for (Index k = 1; k < n; ++k) {
+      const double before = std::exchange(apart_[static_cast<std::size_t>(k)],
+                                          turn_.bottomLeftCorner(n - k, k).cwiseAbs().maxCoeff());
+      const double now = apart_[static_cast<std::size_t>(k)];
+      if (now < rounding || (now < small && before < small && now > shrinks * before)) ends_.push_back(k);
+    }
+    ends_.push_back(n);
+  }
+
+  const std::vector<Matrix>& factors_;
+  std::vector<Matrix> triangles_;  // of the last round
+  Matrix basis_;
+  Matrix turn_;                // in the last round
+  std::vector<double> apart_;  // what the first vectors have left of their subspace
+  std::vector<Index> ends_;
 };
-
-Sweep sweep(const std::vector<Matrix>& factors, Matrix& basis) {
-  Sweep result;
-  const Matrix before = basis;
-  for (const Matrix& factor : factors) {
-    const Eigen::HouseholderQR<Matrix> qr(factor * basis);
-    basis = qr.householderQ();
-    result.triangles.emplace_back(qr.matrixQR().triangularView<Eigen::Upper>());
-  }
-  result.turn = before.transpose() * basis;
-  return result;
-}
-
-/// Where the invariant subspaces that have parted end.
-std::vector<Index> ends(const Matrix& turn) {
-  constexpr double rounding = 1e-13;
-  const Index n = turn.rows();
-  std::vector<Index> result;
-  for (Index k = 1; k < n; ++k) {
-    if (turn.bottomLeftCorner(n - k, k).cwiseAbs().maxCoeff() < rounding) result.push_back(k);
-  }
-  result.push_back(n);
-  return result;
-}
 
 /// ln(mu) of the product of gathered factors.
 ComplexVector logs_of(const std::vector<Matrix>& few) {
   if (!std::all_of(few.begin(), few.end(), [](const Matrix& x) { return x.allFinite(); })) return {};
-  const Index n = few.front().rows();
   std::vector<Complex> logs;
   if (few.size() == 1) {
     append_logs(few.front(), 0, logs);
   } else {
-    constexpr int sweeps = 60;  // what has not parted by then differs by less than twice
-    Matrix basis = Matrix::Identity(n, n);
-    Sweep last;
-    for (int i = 0; i < sweeps; ++i) {
-      last = sweep(few, basis);
-      if (std::ssize(ends(last.turn)) == n) break;
+    constexpr int most = 60;  // what has not parted by then differs by less than twice
+    Subspaces subspaces(few);
+    std::vector<Subspaces::Part> parts;
+    Matrix work;
+    for (int i = 0; i < most; ++i) {
+      subspaces.go_round();
+      parts = subspaces.parts();
+      const auto loses = [&](const Subspaces::Part& part) {
+        return part.matrix.size() > 1 && !(spread(part.matrix, work) < plain);
+      };
+      if (std::none_of(parts.begin(), parts.end(), loses)) break;
     }
-    Index begin = 0;
-    for (const Index end : ends(last.turn)) {
-      const Index size = end - begin;
-      Matrix product = Matrix::Identity(size, size);
-      double log = 0;
-      for (const Matrix& triangle : last.triangles) {
-        product = triangle.block(begin, begin, size, size) * product;
-        const double length = product.norm();
-        if (!(length > 0)) break;
-        product /= length;
-        log += std::log(length);
-      }
-      append_logs(last.turn.block(begin, begin, size, size) * product, log, logs);
-      begin = end;
-    }
+    for (const Subspaces::Part& part : parts) append_logs(part.matrix, part.log, logs);
   }
   return Eigen::Map<const ComplexVector>(logs.data(), std::ssize(logs));
 }

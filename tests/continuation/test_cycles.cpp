@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "arcslip/continuation/curves/curve.hpp"
 #include "arcslip/continuation/cycles/floquet.hpp"
@@ -229,6 +230,33 @@ TEST_CASE("Multipliers keep their digits over forty decades", "[cycles]") {
     INFO(log);
     CHECK(nearest < 1e-10);
   }
+}
+
+TEST_CASE("Equal multipliers hide no smaller ones", "[cycles]") {
+  const Index n = 7;
+  const int factors = 40;
+  const Vector wanted = (Vector(n) << -4.8, -66.8, -66.8, -70.8, -70.8, -97.5, -102.9).finished();
+  // each factor is S_(j+1) D_j S_j^-1, where equal ones grow and shrink alike on their way
+  const auto frame = [&](int j) {
+    Matrix result = Matrix::Identity(n, n);
+    for (Index i = 0; i < n; ++i) {
+      for (Index k = 0; k < n; ++k)
+        result(i, k) += 0.2 * std::sin(1.0 + i + 2.3 * k + 1.7 * (j % factors)) / (1 + k);
+    }
+    return result;
+  };
+  std::vector<Matrix> product;
+  for (int j = 0; j < factors; ++j) {
+    Vector rates = wanted / factors;
+    for (Index k = 0; k < n; ++k) rates(k) += std::sin(2 * pi * j / factors + std::ceil(0.5 * k));
+    product.emplace_back(frame(j + 1) * rates.array().exp().matrix().asDiagonal() * frame(j).inverse());
+  }
+  const ComplexVector found = log_multipliers(product);
+  REQUIRE(found.size() == n);
+  std::vector<double> logs;
+  for (const Complex& log : found) logs.push_back(log.real());
+  std::sort(logs.begin(), logs.end(), std::greater<>());
+  for (Index k = 0; k < n; ++k) CHECK_THAT(logs[static_cast<std::size_t>(k)], WithinAbs(wanted(k), 1e-10));
 }
 
 TEST_CASE("Derivatives of cycles and of their special points are exact", "[cycles]") {
