@@ -204,12 +204,12 @@ TEST_CASE("An interrupted run goes on to the tables of one that was not", "[inte
     return fmt::format("continuation.max_step={:g}", sanitized ? 3 * longest : longest);
   };
   SECTION("several branches") {
-    check_resumed(figure_8_case, {"branch.for_each.preload=[0.5,5.0]", "system.harmonics=9", step(0.002)},
+    check_resumed(figure_8_case, {"branch.for_each.preload=[0.5,5.0]", "system.harmonics=9", step(0.001)},
                   true);
   }
   SECTION("branches that are switched to") {
     check_resumed(figure_8_case, {"branch.for_each.preload=[5.0]", "branch.switching=true",
-                                  "system.harmonics=15", step(0.003)});
+                                  "system.harmonics=15", step(0.001)});
   }
   SECTION("a curve in two parameters") { check_resumed(case_named("lorenz84_hopf_curve"), {step(1e-4)}); }
 }

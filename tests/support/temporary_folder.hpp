@@ -2,11 +2,11 @@
 
 // A folder that lasts as long as a test.
 
-#include <unistd.h>
-
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 namespace arcslip::testing {
@@ -14,10 +14,9 @@ namespace arcslip::testing {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    static int count = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("arcslip_" + std::to_string(getpid()) + "_" + std::to_string(count++));
-    std::filesystem::create_directories(path_);
+    std::string name = std::filesystem::temp_directory_path() / "arcslip_XXXXXX";
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder can be made: " + name);
+    path_ = name;
   }
   ~TemporaryFolder() {
     std::error_code ignored;
