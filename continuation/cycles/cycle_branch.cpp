@@ -9,6 +9,7 @@
 
 #include "arcslip/continuation/path/watch.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
+#include "arcslip/continuation/points/normal_form.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -304,6 +305,31 @@ OrbitBranch on_these_intervals(const OrbitStart& start, const TraceOptions& opti
   return {start.problem, trace_parts([&] { return part(true); }, [&] { return part(false); }, start.guess)};
 }
 
+/// On a finer mesh, where a branch point that a branch leaves lies elsewhere, be it by 1e-8: beside it there
+/// is nothing but the branch that it is known from.
+OrbitStart on_finer_mesh(const OrbitStart& start, Index resolution, const std::string& parameter) {
+  constexpr double near = 1e-3;
+  OrbitStart finer = refined(start, resolution);
+  if (!finer.both_ways || finer.guess.direction.size() == 0) return finer;
+  const OrbitProblem& problem = *finer.problem;
+  const Guess& at = finer.guess;
+  BranchPointProblem conditions(problem, index_of(problem.parameter_names(), parameter));
+  const auto located = locate(conditions, {at.unknowns, at.parameters, at.regime, Vector::Zero(1)});
+  if (!located) return finer;
+  Vector scale(problem.size());
+  Vector parameter_scale(at.parameters.size());
+  problem.scale(at.unknowns, at.parameters, scale, parameter_scale);
+  const BasePoint& found = located->point;
+  const bool is_there =
+      (found.unknowns - at.unknowns).cwiseQuotient(scale).lpNorm<Eigen::Infinity>() < near &&
+      (found.parameters - at.parameters).cwiseQuotient(parameter_scale).lpNorm<Eigen::Infinity>() < near;
+  if (is_there) {
+    finer.guess.unknowns = found.unknowns;
+    finer.guess.parameters = found.parameters;
+  }
+  return finer;
+}
+
 }  // namespace
 
 OrbitStart start_from(std::shared_ptr<OrbitProblem> problem, const Matrix& orbit, double duration,
@@ -324,7 +350,7 @@ OrbitBranch trace_orbits(const OrbitStart& start, const TraceOptions& options, c
     try {
       return on_these_intervals(at, time.rest(), orbits, observer);
     } catch (const TooCoarse&) {
-      at = refined(start, 2 * at.problem->resolution());
+      at = on_finer_mesh(start, 2 * at.problem->resolution(), options.parameter);
     }
   }
 }
