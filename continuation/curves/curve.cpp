@@ -8,6 +8,7 @@
 
 #include "arcslip/continuation/curves/extremum_curve.hpp"
 #include "arcslip/continuation/curves/half_curve.hpp"
+#include "arcslip/continuation/cycles/end_of_kind.hpp"
 #include "arcslip/continuation/points/border_problem.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 #include "arcslip/continuation/points/extremum_problem.hpp"
@@ -33,15 +34,29 @@ int nearest_border(const Problem& base, const BranchPoint& point) {
   return nearest;
 }
 
-/// With the events that end a curve.
-TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options, const CurveWindow& window) {
+/// With the events that end a curve which begins there.
+TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options, const CurveWindow& window,
+                     const Vector& unknowns, const Regime& regime) {
   TraceOptions all = within_window(options, window, problem.base().size());
   for (const PointType last : problem.last_of_curve()) all.stop_after.push_back({last, 1, {}});
+  if (const auto* orbits = dynamic_cast<const OrbitProblem*>(&problem.base()))
+    end_with_kind(*orbits, all, orbits->apart(unknowns, regime));
   return all;
 }
 
+/// With the events of a curve that goes on.
+TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options,
+                     const Checkpoint& checkpoint) {
+  const std::optional<Progress>& part = checkpoint.ahead ? checkpoint.ahead : checkpoint.back;
+  if (part) return bounded(problem, options, *checkpoint.window, part->start.unknowns, part->start.regime);
+  const Guess& guess = checkpoint.begin_back.value();
+  return bounded(problem, options, *checkpoint.window, guess.unknowns, guess.regime);
+}
+
 /// One that has come to the last point of its kind goes no further.
-void settle(const ExtendedProblem& problem, Branch& half) {
+void settle(const ExtendedProblem& problem, const std::string& parameter, Branch& half) {
+  const auto* orbits = dynamic_cast<const OrbitProblem*>(&problem.base());
+  if (orbits != nullptr && tell_end_of_kind(*orbits, problem, parameter, half)) return;
   const std::vector<PointType> last = problem.last_of_curve();
   if (half.stop != Stop::requested) return;
   const BranchPoint& end = half.points.back();
@@ -54,7 +69,7 @@ Branch begin_half(ExtendedProblem& problem, const Guess& start, bool towards_to,
                   const Observer& observer) {
   if (!problem.adapt(problem.split(start.unknowns, start.parameters, start.regime))) return {};
   return trace_part(problem, start, towards_to, options, observer,
-                    [&](Branch& half) { settle(problem, half); });
+                    [&](Branch& half) { settle(problem, options.parameter, half); });
 }
 
 /// By how much an observable is above the value of a level.
@@ -173,7 +188,7 @@ Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const Trace
   problem.join(located->point, guess.unknowns, guess.parameters);
   guess.regime = start.regime;
 
-  const TraceOptions all = bounded(problem, options, window);
+  const TraceOptions all = bounded(problem, options, window, guess.unknowns, guess.regime);
   const TimeBudget time(all);
   std::string why_first_ended;
   Branch curve = trace_parts([&] { return begin_half(problem, guess, true, all, observer); },
@@ -194,7 +209,7 @@ Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const Trac
     throw std::invalid_argument(
         "resume: the checkpoint was written by a version that keeps no curve's window");
   if (!checkpoint.window) return resume(as_branch, checkpoint, options, observer);
-  const TimeBudget time(bounded(problem, options, *checkpoint.window));
+  const TimeBudget time(bounded(problem, options, checkpoint));
   std::string why_first_ended;
   const auto go_on = [&](const Progress& progress) {
     problem.set_borders(progress.borders);
@@ -204,7 +219,7 @@ Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const Trac
     Branch rest = follow_curve(problem, observer, [&](const Observer& follow) {
       return resume(as_branch, half, time.rest(), follow);
     });
-    settle(problem, rest);
+    settle(problem, options.parameter, rest);
     why_first_ended = rest.explanation;
     return rest;
   };

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "arcslip/continuation/cycles/end_of_kind.hpp"
 #include "arcslip/continuation/path/watch.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
@@ -212,43 +213,12 @@ class GrowthWatch {
   int points_ = 0;  // since then
 };
 
-/// Ends a branch where its cycles become simpler ones, by an event.
-class KindWatch {
- public:
-  KindWatch(const OrbitProblem& problem, TraceOptions& options)
-      : problem_(problem), parameter_(options.parameter) {
-    if (problem.end_of_kind().empty()) return;
-    constexpr double nothing = 1e-3;  // of what there was: nearer to it cycles are hard to tell from others
-    options.events.push_back({name, [&problem](const Vector& u, const Vector& /*p*/, const Regime& regime) {
-                                return problem.apart(u, regime) - nothing;
-                              }});
-    options.stop_after.push_back({PointType::event, 1, name});
-  }
-
-  /// Says so of a branch that has ended for it.
-  void tell(Branch& branch) const {
-    if (branch.stop != Stop::requested || branch.points.back().label != name) return;
-    BranchPoint& last = branch.points.back();
-    last.type = PointType::end;
-    last.label.clear();
-    branch.stop = Stop::left_regime;
-    branch.explanation = fmt::format("{}, at {} = {:.10g}", problem_.end_of_kind(), parameter_,
-                                     last.parameters(index_of(problem_.parameter_names(), parameter_)));
-    branch.checkpoint.reset();
-  }
-
- private:
-  static constexpr const char* name = "end of a kind of cycles";
-  const OrbitProblem& problem_;
-  std::string parameter_;
-};
-
 /// One way; `begin` traces up to where the observer says no.
 template <class Begin>
 Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& orbits,
                const Observer& observer, const Begin& begin) {
   options.journal = nullptr;  // which has no meshes: the same work is done anew
-  const KindWatch kind(problem, options);
+  end_with_kind(problem, options);
   MeshWatch meshes(problem, orbits);
   GrowthWatch growth(problem, options, orbits.tolerance);
   bool worn = false;
@@ -283,7 +253,7 @@ Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& 
     branch = go_on_with(problem, std::move(branch), rest, watching);
   }
   require_departures(problem, branch, options, orbits);
-  kind.tell(branch);
+  tell_end_of_kind(problem, problem, options.parameter, branch);
   if (branch.stop == Stop::interrupted && grows && !told) {
     branch.stop = Stop::infinite_period;
     branch.explanation = growth.told();

@@ -166,3 +166,81 @@ TEST_CASE("Curves of folds and Hopf points are followed from where they meet", "
     for (const TracedBranch& one : run.traced) CHECK(one.branch.points.size() > 5);
   }
 }
+
+TEST_CASE("Curves of cycles end where these have shrunk onto equilibria", "[cycles]") {
+  // Folds at mu = -b^2/4, of s = b/2, up to the generalised Hopf point b = 0.
+  const auto folds = traced_of(circles("mu + b*s - s^2", "1 + mu",
+                                       "[model.start]\nx = 0\n[branch]\ncurve = \"cycle_fold\"\nparameters = "
+                                       "[\"mu\", \"b\"]\nwindow = [-0.5, 0.5]\nfrom = -0.5\nto = 2\n"),
+                               {"model.parameters.b=1", "model.parameters.mu=-0.5"});
+  REQUIRE(folds.size() == 1);
+  for (const BranchPoint& point : folds[0].branch.points) {
+    const double b = value(folds[0], point, "b");
+    CHECK_THAT(value(folds[0], point, "mu"), WithinAbs(-b * b / 4, 1e-9));
+    CHECK(b > 1e-7);
+    CHECK(
+        (point.type == PointType::regular || point.type == PointType::start || point.type == PointType::end));
+  }
+  CHECK_THAT(value(folds[0], folds[0].branch.points.front(), "b"), WithinAbs(1e-6, 1e-8));
+  // A third unknown grows at the mean rate nu + s beside the circles s = mu.
+  const auto meetings = traced_of(R"case(
+[model.parameters]
+mu = 0.5
+nu = -1
+[model.definitions]
+s = "x^2 + y^2"
+[model.equations]
+x = "(mu - s)*x - y"
+y = "x + (mu - s)*y"
+z = "z*(nu + s + 0.3*x - z)"
+[model.start]
+x = 0.7
+[cycles]
+settle = 100
+[branch]
+curve = "branch_point"
+parameters = ["nu", "mu"]
+window = [-1, 0.5]
+from = -0.5
+to = 2
+)case");
+  REQUIRE(meetings.size() == 1);
+  for (const BranchPoint& point : meetings[0].branch.points) {
+    const double mu = value(meetings[0], point, "mu");
+    CHECK_THAT(value(meetings[0], point, "nu"), WithinAbs(-mu, 1e-8));
+    CHECK(mu > 1e-7);
+    CHECK(
+        (point.type == PointType::regular || point.type == PointType::start || point.type == PointType::end));
+  }
+}
+
+TEST_CASE("Cycles with a last predator leave those without it where AUTO-07p has it", "[cycles]") {
+  const Run chain("food_chain_cycles");
+  REQUIRE(chain.traced.size() == 2);
+  const auto meetings = values_at(chain.traced[0], PointType::branch_point, "d2");
+  REQUIRE(meetings.size() == 1);
+  CHECK_THAT(meetings[0], WithinAbs(0.0155004, 1e-7));
+  const TracedBranch& coexisting = chain.traced[1];
+  check_values(values_at(coexisting, PointType::start, "d2"), meetings, 1e-12);
+  check_values(values_at(coexisting, PointType::fold, "d2"), {0.0148013214}, 1e-8);
+  // Both ends are Hopf points: of l^3 + a l^2 + b l + c, where a b = c.
+  for (const BranchPoint& end : {coexisting.branch.points.front(), coexisting.branch.points.back()}) {
+    const double d2 = value(coexisting, end, "d2");
+    const double prey = d2 / (0.1 - 2 * d2);
+    const double root = std::sqrt(4 - 12 * (5 * prey - 1)) / 6;
+    const double food = 1 / 3.0 + (value(coexisting, end, "x_max") > -1.2 ? root : -root);
+    const double z = (1 + 2 * prey) / 0.1 * (5 * food / (1 + 3 * food) - 0.75);
+    CHECK_THAT(0.5 * (value(coexisting, end, "z_max") + value(coexisting, end, "z_min")), WithinAbs(z, 1e-4));
+    const double by_food = 1 + 3 * food;
+    const double by_prey = 1 + 2 * prey;
+    const double xx = -food + 15 * food * prey / (by_food * by_food);
+    const double xy = -5 * prey / by_food;
+    const double yx = 5 * food / (by_food * by_food);
+    const double yy = 0.2 * z * prey / (by_prey * by_prey);
+    const double yz = -0.1 / by_prey;
+    const double zy = z * 0.1 * prey / (by_prey * by_prey);
+    const double a = -xx - yy;
+    const double b = xx * yy - xy * yx - yz * zy;
+    CHECK_THAT(a * b, WithinRel(xx * yz * zy, 5e-3));
+  }
+}

@@ -1,0 +1,38 @@
+#include "arcslip/continuation/cycles/end_of_kind.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr const char* end_of_kind_name = "end of a kind of orbits";
+
+}  // namespace
+
+void end_with_kind(const OrbitProblem& orbits, TraceOptions& options, double begins) {
+  if (orbits.end_of_kind().empty()) return;
+  // Of what there was: nearer to it orbits are hard to tell from others.
+  const double nothing = 1e-3 * std::max(1.0, begins);
+  options.events.push_back(
+      {end_of_kind_name, [&orbits, nothing](const Vector& u, const Vector& /*p*/, const Regime& regime) {
+         return orbits.apart(u, regime) - nothing;
+       }});
+  options.stop_after.push_back({PointType::event, 1, end_of_kind_name});
+}
+
+bool tell_end_of_kind(const OrbitProblem& orbits, const Problem& traced, const std::string& parameter,
+                      Branch& branch) {
+  if (branch.stop != Stop::requested || branch.points.back().label != end_of_kind_name) return false;
+  BranchPoint& last = branch.points.back();
+  last.type = PointType::end;
+  last.label.clear();
+  branch.stop = Stop::left_regime;
+  branch.explanation = fmt::format("{}, at {} = {:.10g}", orbits.end_of_kind(), parameter,
+                                   last.parameters(index_of(traced.parameter_names(), parameter)));
+  branch.checkpoint.reset();
+  return true;
+}
+
+}  // namespace arcslip::continuation
