@@ -13,6 +13,10 @@ std::string circles(const std::string& g, const std::string& turn, const std::st
          turn + "\"\n[model.equations]\nx = \"g*x - turn*y\"\ny = \"turn*x + g*y\"\n" + rest;
 }
 
+bool is_plain(const BranchPoint& point) {
+  return point.type == PointType::regular || point.type == PointType::start || point.type == PointType::end;
+}
+
 }  // namespace
 
 TEST_CASE("A branch of cycles between two Hopf points is traced once", "[cycles]") {
@@ -178,8 +182,7 @@ TEST_CASE("Curves of cycles end where these have shrunk onto equilibria", "[cycl
     const double b = value(folds[0], point, "b");
     CHECK_THAT(value(folds[0], point, "mu"), WithinAbs(-b * b / 4, 1e-9));
     CHECK(b > 1e-7);
-    CHECK(
-        (point.type == PointType::regular || point.type == PointType::start || point.type == PointType::end));
+    CHECK(is_plain(point));
   }
   CHECK_THAT(value(folds[0], folds[0].branch.points.front(), "b"), WithinAbs(1e-6, 1e-8));
   // A third unknown grows at the mean rate nu + s beside the circles s = mu.
@@ -209,9 +212,42 @@ to = 2
     const double mu = value(meetings[0], point, "mu");
     CHECK_THAT(value(meetings[0], point, "nu"), WithinAbs(-mu, 1e-8));
     CHECK(mu > 1e-7);
-    CHECK(
-        (point.type == PointType::regular || point.type == PointType::start || point.type == PointType::end));
+    CHECK(is_plain(point));
   }
+}
+
+TEST_CASE("Curves of tori's births end on double Hopf points", "[cycles]") {
+  const auto births = traced_of(R"case(
+[model.parameters]
+mu = 0.5
+nu = 0.2
+[model.definitions]
+s = "x^2 + y^2"
+q = "z^2 + w^2"
+[model.equations]
+x = "(mu - s - 1.5*q)*x - y"
+y = "x + (mu - s - 1.5*q)*y"
+z = "(nu - q - 2*s)*z - sqrt(2)*w"
+w = "sqrt(2)*z + (nu - q - 2*s)*w"
+[model.start]
+x = 0.7
+[cycles]
+settle = 100
+[branch]
+curve = "neimark_sacker"
+parameters = ["nu", "mu"]
+window = [-0.5, 1.5]
+from = -0.5
+to = 1
+)case");
+  REQUIRE(births.size() == 1);
+  for (const BranchPoint& point : births[0].branch.points) {
+    const double mu = value(births[0], point, "mu");
+    CHECK_THAT(value(births[0], point, "nu"), WithinAbs(2 * mu, 1e-8));
+    CHECK(mu > 1e-7);
+    CHECK(is_plain(point));
+  }
+  CHECK_THAT(value(births[0], births[0].branch.points.front(), "mu"), WithinAbs(5e-7, 1e-9));
 }
 
 TEST_CASE("Cycles with a last predator leave those without it where AUTO-07p has it", "[cycles]") {

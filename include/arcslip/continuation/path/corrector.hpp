@@ -94,8 +94,9 @@ class Corrector {
   void displace(const CurvePoint& origin, const Vector& displacement, CurvePoint& point) const;
 
   /// Corrects `point` from where it stands; of sparse problems, where steps are short, by the factors at the
-  /// origin first, so that those at the point are the only new ones. `to_rounding` goes on until the residual
-  /// is at its rounding level.
+  /// origin first, so that those at the point are the only new ones, elsewhere by those of each of Newton's
+  /// corrections for as long as they serve. `to_rounding` goes on until the residual is at its rounding
+  /// level.
   Correction correct(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance,
                      bool to_rounding = false);
 
