@@ -214,15 +214,30 @@ ComplexVector exponents(const ComplexVector& logs, double duration) {
 
 namespace {
 
-/// prod (1 + sign mu), each factor over 1 + |mu|.
+/// 1 + sign mu over 1 + |mu|.
+Complex factor_of(const Complex& log, double sign) {
+  const double other = std::exp(-std::abs(log.real()));  // the smaller of 1 and |mu|, over the larger
+  const Complex turn = sign * std::polar(1.0, log.imag());
+  return (log.real() > 0 ? turn + other : 1.0 + turn * other) / (1 + other);
+}
+
 double product_of(const ComplexVector& logs, double sign) {
   Complex product = 1;
-  for (const Complex& log : logs) {
-    const double other = std::exp(-std::abs(log.real()));  // the smaller of 1 and |mu|, over the larger
-    const Complex turn = sign * std::polar(1.0, log.imag());
-    product *= (log.real() > 0 ? turn + other : 1.0 + turn * other) / (1 + other);
-  }
+  for (const Complex& log : logs) product *= factor_of(log, sign);
   return product.real();
+}
+
+double products_but_one(const ComplexVector& logs, double sign) {
+  if (logs.size() == 0) return std::nan("");
+  Complex sum = 0;
+  for (Index without = 0; without < logs.size(); ++without) {
+    Complex product = 1;
+    for (Index i = 0; i < logs.size(); ++i) {
+      if (i != without) product *= factor_of(logs(i), sign);
+    }
+    sum += product;
+  }
+  return sum.real();
 }
 
 }  // namespace
@@ -231,6 +246,14 @@ double doubling_test(const ComplexVector& log_multipliers) { return product_of(l
 
 double fold_test(const ComplexVector& log_multipliers) {
   return log_multipliers.size() == 0 ? std::nan("") : product_of(log_multipliers, -1);
+}
+
+double second_doubling_test(const ComplexVector& log_multipliers) {
+  return products_but_one(log_multipliers, 1);
+}
+
+double second_fold_test(const ComplexVector& log_multipliers) {
+  return products_but_one(log_multipliers, -1);
 }
 
 }  // namespace arcslip::continuation

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/continuation/cycles/floquet.hpp"
+#include "arcslip/continuation/cycles/periodic_orbit.hpp"
 #include "arcslip/continuation/linear/borders.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 
@@ -26,9 +28,17 @@ double FoldProblem::quadratic(const BasePoint& point) const {
 }
 
 std::vector<PointType> FoldProblem::test_types() const {
-  if (base().has_multipliers()) return {PointType::cusp, PointType::fold_flip};
+  if (base().has_multipliers()) return {PointType::cusp, PointType::fold_flip, PointType::resonance_1_1};
   if (!base().is_equilibrium()) return {PointType::cusp};
   return {PointType::cusp, PointType::bogdanov_takens};
+}
+
+/// ln(mu); of a map by its derivatives as they were evaluated last.
+ComplexVector FoldProblem::multipliers_at(const BasePoint& point) const {
+  if (const auto* orbits = dynamic_cast<const PeriodicOrbit*>(&base()))
+    return orbits->log_multipliers(point.unknowns, point.parameters, point.regime);
+  const Index n = base().size();
+  return at_.sparse() ? ComplexVector() : log_multipliers({at_.jacobian() + Matrix::Identity(n, n)});
 }
 
 void FoldProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
@@ -44,6 +54,7 @@ void FoldProblem::test(const Vector& u, const Vector& p, const Regime& regime, V
   if (second_.contract(point.unknowns, point.parameters, regime, w, v, none, row))
     values(0) = row.head(n).dot(v);
   if (base().has_multipliers()) {
+    values(2) = second_fold_test(multipliers_at(point));
     const std::vector<PointType> types = base().test_types();
     const auto doubling = std::find(types.begin(), types.end(), PointType::period_doubling);
     Vector of_base(std::ssize(types));

@@ -169,6 +169,81 @@ to = 1
   check_values(at(flips, PointType::generalized_period_doubling, "k"), {-0.49}, 1e-8);
 }
 
+TEST_CASE("Curves of tori end where those of folds and period doublings tell it", "[cycles]") {
+  // A fixed point of trace q and determinant b: b = -1 - q, and a second multiplier -1 at b = 1.
+  const auto flips = traced_of(R"case(
+[model]
+kind = "map"
+[model.parameters]
+b = 0.5
+q = -1.7
+[model.equations]
+x = "y"
+y = "-b*x + q*y - 0.4*x^2*y + 0.3*x*y"
+[branch]
+curve = "period_doubling"
+parameters = ["b", "q"]
+window = [-0.5, 1.5]
+from = -3
+to = -1
+)case");
+  REQUIRE(flips.size() == 1);
+  check_values(at(flips, PointType::resonance_1_2, "q"), {-2}, 1e-8);
+  CHECK(at(flips, PointType::fold_flip, "q").empty());
+  // x = y, (b + 1 - q) x = mu - x^2: a fold of multiplier b beside 1.
+  const auto folds = traced_of(R"case(
+[model]
+kind = "map"
+[model.parameters]
+mu = 0.1
+b = 0.5
+[model.equations]
+x = "y"
+y = "-b*x + (1 + b)*y + mu - x^2"
+[model.start]
+x = 0.3
+y = 0.3
+[branch]
+curve = "fold"
+parameters = ["mu", "b"]
+window = [0.1, -0.1]
+from = 0.5
+to = 1.5
+)case");
+  REQUIRE(folds.size() == 1);
+  check_values(at(folds, PointType::resonance_1_1, "b"), {1}, 1e-8);
+  // Lorenz' flow of 1984: tori of the doubled cycles end on the curve of doublings.
+  const auto flow = [](const std::string& curve) {
+    return traced_of(R"case(
+[model.parameters]
+F = 1
+G = 1.5
+[model.equations]
+x = "-y^2 - z^2 - x/4 + F/4"
+y = "x*y - 4*x*z - y + G"
+z = "4*x*y + x*z - z"
+[model.start]
+x = 7.9
+[branch]
+parameters = ["F", "G"]
+window = [8, 0.5]
+from = 1.3
+to = 1.8
+)case"
+                     "curve = \"" +
+                     curve + "\"\n");
+  };
+  const auto tori = flow("neimark_sacker");
+  const auto doublings = flow("period_doubling");
+  const auto resonances = at(doublings, PointType::resonance_1_2, "G");
+  REQUIRE(resonances.size() == 1);
+  REQUIRE(tori.size() == 1);
+  const BranchPoint& last = tori[0].branch.points.back();
+  CHECK(tori[0].branch.stop == Stop::left_regime);
+  CHECK_THAT(value(tori[0], last, "G"), WithinAbs(resonances[0], 3e-5));
+  CHECK_THAT(value(tori[0], last, "F"), WithinAbs(at(doublings, PointType::resonance_1_2, "F")[0], 3e-5));
+}
+
 TEST_CASE("Coefficients that are one term vanish where it does", "[cycles]") {
   const auto flips = traced_of(R"case(
 [model]
@@ -222,6 +297,15 @@ TEST_CASE("Curves of tori end on the folds of cycles, on two meshes and on branc
     for (const TracedBranch& traced : run->traced) CHECK(traced.branch.stop == Stop::requested);
     resonances = at(run->traced, PointType::resonance_1_1, "k8");
     check_values(resonances, {0.72395704, 0.93042203}, 1e-8);
+  }
+  // by a second multiplier at 1 on the curve of folds itself
+  const Run folds("peroxidase_tori",
+                  {"branch.curve=cycle_fold", "model.parameters.k8=0.75", "branch.from=0.7", "branch.to=1"});
+  REQUIRE(!folds.traced.empty());
+  for (const TracedBranch& traced : folds.traced) {
+    std::vector<double> met = values_at(traced, PointType::resonance_1_1, "k8");
+    std::sort(met.begin(), met.end());
+    check_values(met, resonances, 1e-7);
   }
   // tori leave cycles beside their fold on one side of it alone
   const std::string text = read(source_folder() + "/problems/peroxidase_tori.toml");

@@ -9,7 +9,8 @@ namespace arcslip::continuation {
 
 /// A multiplier -1. Of cycles the variation v' = T f_u v with v(1) = -v(0) has a solution: the singular
 /// matrix is the Jacobian of the cycle without T and phase, with the sign of u(0) changed in u(1) = u(0). Of
-/// a map f it is df/du + 1. Along a curve generalised period doublings and fold-flip points are found.
+/// a map f it is df/du + 1. Along a curve generalised period doublings, fold-flip points and 1:2 resonances,
+/// where a second multiplier is -1, are found.
 class DoublingProblem : public SingularProblem {
  public:
   /// Of periodic orbits or of a map that is not sparse; `active` becomes an unknown. The base is kept by
@@ -17,7 +18,7 @@ class DoublingProblem : public SingularProblem {
   DoublingProblem(const Problem& base, Index active);
 
   std::vector<PointType> test_types() const override {
-    return {PointType::generalized_period_doubling, PointType::fold_flip};
+    return {PointType::generalized_period_doubling, PointType::fold_flip, PointType::resonance_1_2};
   }
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
 

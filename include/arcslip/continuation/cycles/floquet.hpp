@@ -38,4 +38,9 @@ double doubling_test(const ComplexVector& log_multipliers);
 /// prod (1 - mu), each factor over 1 + |mu|; nan without any.
 double fold_test(const ComplexVector& log_multipliers);
 
+/// Where one multiplier is -1 or, of folds, 1: the same product without it, 0 where a second one comes to be
+/// so. Of all multipliers the sum of the products without one; nan without any.
+double second_doubling_test(const ComplexVector& log_multipliers);
+double second_fold_test(const ComplexVector& log_multipliers);
+
 }  // namespace arcslip::continuation
