@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "arcslip/continuation/curves/meeting_curves.hpp"
+#include "arcslip/continuation/cycles/orbit_problem.hpp"
 #include "arcslip/continuation/points/fold_problem.hpp"
 #include "arcslip/continuation/points/hopf_problem.hpp"
 
@@ -28,15 +29,27 @@ bool same_place(const Vector& a, const Vector& b) {
   return ((a - b).array().abs() <= 1e-6 * (1 + b.array().abs())).all();
 }
 
-/// Whether a curve passes the special point of its base.
-bool passes(const TracedBranch& traced, const BranchPoint& seed, const std::string& second) {
-  const Index parameter = continuation::index_of(traced.base.problem->parameter_names(), second);
-  if (traced.base.problem->size() != seed.unknowns.size()) return false;
+/// Whether solutions are one: of orbits, which may be told on different meshes, by what is observed of them.
+bool same_solution(const continuation::Problem& a, const BasePoint& at, const continuation::Problem& b,
+                   const BranchPoint& seed) {
+  if (dynamic_cast<const continuation::OrbitProblem*>(&b) == nullptr)
+    return at.unknowns.size() == seed.unknowns.size() && same_place(at.unknowns, seed.unknowns);
+  Vector of_curve;
+  Vector of_seed;
+  a.observe(at.unknowns, at.parameters, at.regime, of_curve);
+  b.observe(seed.unknowns, seed.parameters, seed.regime, of_seed);
+  return of_curve.size() == of_seed.size() && same_place(of_curve, of_seed);
+}
+
+/// Whether a curve passes the special point of a base like its own.
+bool passes(const TracedBranch& traced, const continuation::Problem& base, const BranchPoint& seed,
+            const std::string& second) {
+  const Index parameter = continuation::index_of(base.parameter_names(), second);
   return std::any_of(traced.branch.points.begin(), traced.branch.points.end(), [&](const BranchPoint& point) {
     const BasePoint at = traced.curve->split(point.unknowns, point.parameters, point.regime);
     return std::abs(at.parameters(parameter) - seed.parameters(parameter)) <=
                1e-12 * std::abs(seed.parameters(parameter)) &&
-           same_place(at.parameters, seed.parameters) && same_place(at.unknowns, seed.unknowns);
+           same_place(at.parameters, seed.parameters) && same_solution(*traced.base.problem, at, base, seed);
   });
 }
 
@@ -161,7 +174,9 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
     const continuation::Problem& problem = *seeds.base.problem;
     for (const BranchPoint& seed : seeds.branch.points) {
       if (is_left || !is_seed(asked, problem, seed)) continue;
-      const auto known = [&](const TracedBranch& curve) { return passes(curve, seed, options.parameter); };
+      const auto known = [&](const TracedBranch& curve) {
+        return passes(curve, problem, seed, options.parameter);
+      };
       if (std::any_of(curves.begin(), curves.end(), known)) continue;
       continuation::CurveStart start =
           asked.level ? continuation::curve_at(*asked.level, problem, asked.active, seed)

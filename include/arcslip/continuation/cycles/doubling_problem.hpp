@@ -9,8 +9,8 @@ namespace arcslip::continuation {
 
 /// A multiplier -1. Of cycles the variation v' = T f_u v with v(1) = -v(0) has a solution: the singular
 /// matrix is the Jacobian of the cycle without T and phase, with the sign of u(0) changed in u(1) = u(0). Of
-/// a map f it is df/du + 1. Along a curve generalised period doublings, fold-flip points and 1:2 resonances,
-/// where a second multiplier is -1, are found.
+/// a map f it is df/du + 1. Along a curve generalised period doublings, fold-flip points and those
+/// at which a second multiplier is -1 are found.
 class DoublingProblem : public SingularProblem {
  public:
   /// Of periodic orbits or of a map that is not sparse; `active` becomes an unknown. The base is kept by

@@ -9,7 +9,7 @@ namespace arcslip::continuation {
 /// Folds: dF/du singular.
 ///
 /// Along a curve of folds cusps are found, of equilibria Bogdanov-Takens and zero-Hopf points, of cycles and
-/// maps fold-flip points and 1:1 resonances, where a second multiplier is 1. Where it turns in its parameter
+/// maps fold-flip points and those at which a second multiplier is 1. Where it turns in its parameter
 /// p_b, psi^T dF/dp_a = 0, the branches over p_a at that p_b have a singular point [M. Golubitsky & D.
 /// Schaeffer, Singularities and Groups in Bifurcation Theory I, Springer 1985, ch. IV]: an isola centre where
 /// the quadratic form of their equation is definite, a simple bifurcation where it is not.
