@@ -13,8 +13,19 @@ std::string circles(const std::string& g, const std::string& turn, const std::st
          turn + "\"\n[model.equations]\nx = \"g*x - turn*y\"\ny = \"turn*x + g*y\"\n" + rest;
 }
 
-bool is_plain(const BranchPoint& point) {
-  return point.type == PointType::regular || point.type == PointType::start || point.type == PointType::end;
+/// The one curve along which `second` is what it is at `first`, without special points on its way, and which
+/// ends before cycles are gone, at first = 0.
+template <class Exact>
+void check_ends_at_rest(const std::vector<TracedBranch>& all, const std::string& first,
+                        const std::string& second, const Exact& exact, double margin) {
+  REQUIRE(all.size() == 1);
+  for (const BranchPoint& point : all[0].branch.points) {
+    const double at = value(all[0], point, first);
+    CHECK_THAT(value(all[0], point, second), WithinAbs(exact(at), margin));
+    CHECK(at > 1e-7);
+    CHECK(
+        (point.type == PointType::regular || point.type == PointType::start || point.type == PointType::end));
+  }
 }
 
 }  // namespace
@@ -177,13 +188,8 @@ TEST_CASE("Curves of cycles end where these have shrunk onto equilibria", "[cycl
                                        "[model.start]\nx = 0\n[branch]\ncurve = \"cycle_fold\"\nparameters = "
                                        "[\"mu\", \"b\"]\nwindow = [-0.5, 0.5]\nfrom = -0.5\nto = 2\n"),
                                {"model.parameters.b=1", "model.parameters.mu=-0.5"});
-  REQUIRE(folds.size() == 1);
-  for (const BranchPoint& point : folds[0].branch.points) {
-    const double b = value(folds[0], point, "b");
-    CHECK_THAT(value(folds[0], point, "mu"), WithinAbs(-b * b / 4, 1e-9));
-    CHECK(b > 1e-7);
-    CHECK(is_plain(point));
-  }
+  check_ends_at_rest(
+      folds, "b", "mu", [](double b) { return -b * b / 4; }, 1e-9);
   CHECK_THAT(value(folds[0], folds[0].branch.points.front(), "b"), WithinAbs(1e-6, 1e-8));
   // A third unknown grows at the mean rate nu + s beside the circles s = mu.
   const auto meetings = traced_of(R"case(
@@ -207,13 +213,8 @@ window = [-1, 0.5]
 from = -0.5
 to = 2
 )case");
-  REQUIRE(meetings.size() == 1);
-  for (const BranchPoint& point : meetings[0].branch.points) {
-    const double mu = value(meetings[0], point, "mu");
-    CHECK_THAT(value(meetings[0], point, "nu"), WithinAbs(-mu, 1e-8));
-    CHECK(mu > 1e-7);
-    CHECK(is_plain(point));
-  }
+  check_ends_at_rest(
+      meetings, "mu", "nu", [](double mu) { return -mu; }, 1e-8);
 }
 
 TEST_CASE("Curves of tori's births end on double Hopf points", "[cycles]") {
@@ -240,13 +241,8 @@ window = [-0.5, 1.5]
 from = -0.5
 to = 1
 )case");
-  REQUIRE(births.size() == 1);
-  for (const BranchPoint& point : births[0].branch.points) {
-    const double mu = value(births[0], point, "mu");
-    CHECK_THAT(value(births[0], point, "nu"), WithinAbs(2 * mu, 1e-8));
-    CHECK(mu > 1e-7);
-    CHECK(is_plain(point));
-  }
+  check_ends_at_rest(
+      births, "mu", "nu", [](double mu) { return 2 * mu; }, 1e-8);
   CHECK_THAT(value(births[0], births[0].branch.points.front(), "mu"), WithinAbs(5e-7, 1e-9));
 }
 

@@ -190,7 +190,7 @@ to = -1
   REQUIRE(flips.size() == 1);
   check_values(at(flips, PointType::resonance_1_2, "q"), {-2}, 1e-8);
   CHECK(at(flips, PointType::fold_flip, "q").empty());
-  // x = y, (b + 1 - q) x = mu - x^2: a fold of multiplier b beside 1.
+  // x = y, x^2 = mu: a fold at mu = 0, of multipliers 1 and b.
   const auto folds = traced_of(R"case(
 [model]
 kind = "map"
