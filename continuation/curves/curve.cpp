@@ -190,16 +190,10 @@ Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const Trace
 
   const TraceOptions all = bounded(problem, options, window, guess.unknowns, guess.regime);
   const TimeBudget time(all);
-  std::string why_first_ended;
   Branch curve = trace_parts([&] { return begin_half(problem, guess, true, all, observer); },
-                             [&] {
-                               Branch first = begin_half(problem, guess, false, time.rest(), observer);
-                               why_first_ended = first.explanation;
-                               return first;
-                             },
-                             guess);
+                             [&] { return begin_half(problem, guess, false, time.rest(), observer); }, guess);
   curve.work.evaluations += to_locate;
-  return told(most_telling(std::move(curve), why_first_ended), window);
+  return told(most_telling(std::move(curve)), window);
 }
 
 Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const TraceOptions& options,
@@ -210,7 +204,6 @@ Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const Trac
         "resume: the checkpoint was written by a version that keeps no curve's window");
   if (!checkpoint.window) return resume(as_branch, checkpoint, options, observer);
   const TimeBudget time(bounded(problem, options, checkpoint));
-  std::string why_first_ended;
   const auto go_on = [&](const Progress& progress) {
     problem.set_borders(progress.borders);
     Checkpoint half;
@@ -220,15 +213,12 @@ Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const Trac
       return resume(as_branch, half, time.rest(), follow);
     });
     settle(problem, options.parameter, rest);
-    why_first_ended = rest.explanation;
     return rest;
   };
   const auto begin_back = [&](const Guess& guess) {
-    Branch first = begin_half(problem, guess, false, time.rest(), observer);
-    why_first_ended = first.explanation;
-    return first;
+    return begin_half(problem, guess, false, time.rest(), observer);
   };
-  return told(most_telling(resume_parts(checkpoint, go_on, begin_back), why_first_ended), *checkpoint.window);
+  return told(most_telling(resume_parts(checkpoint, go_on, begin_back)), *checkpoint.window);
 }
 
 }  // namespace arcslip::continuation

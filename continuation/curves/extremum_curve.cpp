@@ -51,22 +51,16 @@ Branch trace_extrema(ExtendedProblem& problem, const BasePoint& start, const Tra
     return none;
   }
   const TimeBudget time(options);
-  std::string why_first_ended;
   Guess guess;
   problem.join(located->point, guess.unknowns, guess.parameters);
   guess.regime = start.regime;
   const auto half = [&](bool towards_to, const TraceOptions& rest) {
     return ExtremumTracer(problem, rest, window, observer).half(located->point, corner, towards_to);
   };
-  Branch curve = trace_parts([&] { return half(true, options); },
-                             [&] {
-                               Branch first = half(false, time.rest());
-                               why_first_ended = first.explanation;
-                               return first;
-                             },
-                             guess);
+  Branch curve =
+      trace_parts([&] { return half(true, options); }, [&] { return half(false, time.rest()); }, guess);
   curve.work.evaluations += to_locate;
-  return most_telling(std::move(curve), why_first_ended);
+  return most_telling(std::move(curve));
 }
 
 }  // namespace arcslip::continuation

@@ -83,10 +83,10 @@ Branch trace_part(ExtendedProblem& problem, const Guess& start, bool towards_to,
   return std::move(entry.branch);
 }
 
-Branch most_telling(Branch curve, const std::string& why_first_ended) {
+Branch most_telling(Branch curve) {
   if (curve.first_stop && is_end(curve.stop) && !is_end(*curve.first_stop)) {
     std::swap(curve.stop, *curve.first_stop);
-    curve.explanation = why_first_ended;
+    std::swap(curve.explanation, curve.first_explanation);
   }
   return curve;
 }

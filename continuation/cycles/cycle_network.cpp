@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "arcslip/continuation/cycles/cycle_branch.hpp"
+#include "arcslip/continuation/path/switching.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -38,27 +39,29 @@ class OrbitNetwork {
         parameter_(index_of(field.parameter_names(), options.parameter)),
         time_(options_) {}
 
-  void leave_hopf(const std::shared_ptr<const Field>& field, const BranchPoint& hopf) {
-    const Guess at{hopf.unknowns, hopf.parameters, hopf.regime};
-    for (const CycleStart& start : cycles_from_hopf(field, at, orbits_)) {
-      const double period = start.guess.unknowns.tail(1)(0);
-      if (!may_go_on() || is_reached(hopf.parameters, period)) continue;
-      follow({start.problem, start.guess, start.both_ways}, 0);
-    }
+  /// The cycles that leave a Hopf point are to be followed.
+  void expect(const std::shared_ptr<const Field>& field, const BranchPoint& hopf) {
+    waiting_.push_back({nullptr, hopf, 0, field});
   }
 
   void begin(const OrbitStart& start) { follow(start, 0); }
 
+  /// Without time left the next branch is begun, and says so.
   void follow_waiting() {
-    while (!waiting_.empty() && may_go_on()) {
+    while (!waiting_.empty() && !interrupted_) {
       const Waiting next = std::move(waiting_.front());
       waiting_.pop_front();
-      leave(next);
+      const bool doubles = next.point.type == PointType::period_doubling;
+      for (const OrbitStart& start : starts_at(next)) {
+        if (interrupted_ || is_end_of(next, start)) continue;
+        if (found_.size() >= orbits_.max_branches)
+          return found_.back().branch.warn(
+              more_branches(found_.size(), options_.parameter, next.point.parameters(parameter_)));
+        follow(start, next.doublings + (doubles ? 1 : 0));
+      }
     }
   }
 
-  /// Without time left the next branch is begun, and says so.
-  bool may_go_on() const { return !interrupted_ && found_.size() < orbits_.max_branches; }
   std::vector<OrbitBranch> take() { return std::move(found_); }
 
  private:
@@ -66,6 +69,7 @@ class OrbitNetwork {
     std::shared_ptr<const OrbitProblem> problem;
     BranchPoint point;
     int doublings;
+    std::shared_ptr<const Field> field;  // of a Hopf point's equilibria, which has no orbits
   };
 
   void follow(const OrbitStart& start, int doublings) {
@@ -74,7 +78,7 @@ class OrbitNetwork {
     for (const BranchPoint& point : traced.branch.points) {
       if (point.type == PointType::branch_point || point.type == PointType::period_doubling) {
         marks_.push_back(mark(*traced.problem, point));
-        waiting_.push_back({traced.problem, point, doublings});
+        waiting_.push_back({traced.problem, point, doublings, nullptr});
       }
     }
     if (!traced.branch.points.empty()) {
@@ -93,20 +97,30 @@ class OrbitNetwork {
         {end.parameters, orbits->period(end.unknowns, end.parameters) / (orbits->is_doubled() ? 2 : 1)});
   }
 
-  void leave(const Waiting& from) {
-    if (from.point.type == PointType::period_doubling) return double_at(from);
-    if (times_marked(mark(*from.problem, from.point)) > 1) return;  // both of its branches are known
-    const std::optional<OrbitStart> start =
-        orbit_from_branch_point(*from.problem, options_.parameter, from.point, options_.tolerances);
-    if (start) follow(*start, from.doublings);
+  std::vector<OrbitStart> starts_at(const Waiting& from) const {
+    const BranchPoint& point = from.point;
+    std::vector<OrbitStart> starts;
+    if (point.type == PointType::hopf) {
+      for (const CycleStart& one :
+           cycles_from_hopf(from.field, {point.unknowns, point.parameters, point.regime}, orbits_))
+        starts.push_back({one.problem, one.guess, one.both_ways});
+    } else if (point.type == PointType::period_doubling) {
+      if (from.doublings >= orbits_.doublings) return starts;
+      const auto& orbits = dynamic_cast<const PeriodicOrbit&>(*from.problem);
+      if (auto start = orbit_from_doubling(orbits, parameter_, point)) starts.push_back(std::move(*start));
+    } else if (times_marked(mark(*from.problem, point)) <= 1) {  // else both of its branches are known
+      if (auto start = orbit_from_branch_point(*from.problem, options_.parameter, point, options_.tolerances))
+        starts.push_back(std::move(*start));
+    }
+    return starts;
   }
 
-  void double_at(const Waiting& from) {
-    const auto& orbits = dynamic_cast<const PeriodicOrbit&>(*from.problem);
-    const double period = orbits.period(from.point.unknowns, from.point.parameters);
-    if (from.doublings >= orbits_.doublings || is_reached(from.point.parameters, period)) return;
-    const std::optional<OrbitStart> start = orbit_from_doubling(orbits, parameter_, from.point);
-    if (start) follow(*start, from.doublings + 1);
+  /// Whether a branch has come to where this one begins.
+  bool is_end_of(const Waiting& from, const OrbitStart& start) const {
+    if (from.point.type == PointType::branch_point) return false;
+    const auto& orbits = dynamic_cast<const PeriodicOrbit&>(from.problem ? *from.problem : *start.problem);
+    const Vector& u = from.problem ? from.point.unknowns : start.guess.unknowns;
+    return is_reached(from.point.parameters, orbits.period(u, from.point.parameters));
   }
 
   /// Whether a branch has ended there, on a cycle of this period or on an equilibrium.
@@ -181,7 +195,7 @@ std::vector<CycleBranch> trace_cycles_leaving(const std::shared_ptr<const Field>
   OrbitNetwork network(*field, of_cycles(*field, options), cycles, observer);
   for (const Branch& branch : equilibria) {
     for (const BranchPoint& point : branch.points) {
-      if (point.type == PointType::hopf && network.may_go_on()) network.leave_hopf(field, point);
+      if (point.type == PointType::hopf) network.expect(field, point);
     }
   }
   network.follow_waiting();

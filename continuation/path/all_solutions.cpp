@@ -113,8 +113,7 @@ class Branches {
       gather(first, from, k);
       passed_.insert({number, k});
       if (!collector_.goes_on()) return;
-      for (const Branch& branch : trace_leaving(problem_, first.points, options, {20}))
-        gather(branch, from, k);
+      for (const Branch& branch : trace_leaving(problem_, first.points, options)) gather(branch, from, k);
     }
   }
 
@@ -132,6 +131,7 @@ class Branches {
     options.to = value + options_.window * parameter_scale(k);
     options.stop_at = {value};
     options.max_points = options_.max_points;
+    options.max_branches = 20;
     options.go_on = options_.go_on;
     options.tolerances = options_.tolerances;
     return options;

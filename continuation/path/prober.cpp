@@ -36,9 +36,10 @@ bool Prober::probe(double s) {
   return true;
 }
 
-double Prober::look_beside() {
+double Prober::look_beside(double least) {
   constexpr double apart = 1e-3;  // of the step: where the branch is regular beside a branch point
-  const double near = offset_beside(s_);
+  const double nearest = offset_beside(s_);
+  const double near = std::copysign(std::max(std::abs(nearest), least), nearest);
   const bool is_singular = is_known_ && std::isinf(probed_.point.log_determinant);
   const double offset = is_singular ? std::copysign(apart * step_.distance, near) : near;
   if (linearise_beside(probed_.point, probed_.slope, offset) != Correction::converged) return 0;

@@ -6,6 +6,10 @@
 namespace arcslip::continuation {
 namespace {
 
+constexpr double plainly = 100;    // times rounding
+constexpr double wider = 100;      // times the offset before
+constexpr double farthest = 1e-3;  // of the step: from where slopes are taken
+
 void read_slopes(double parameter_rate, const std::vector<Monitor>& monitors, Index tracked,
                  std::vector<double>& values) {
   values.push_back(parameter_rate);
@@ -69,12 +73,29 @@ std::optional<Node> Readings::node(std::size_t which, double s) {
   const std::optional<double> here = value(which, s);
   if (!here) return std::nullopt;
   Place& place = *at(s);
-  if (place.beside.count == 0 && stepper_.prober().probe(s)) {
-    place.offset = stepper_.prober().look_beside();
-    if (place.offset != 0) place.beside = read(stepper_.prober().beside());
+  if (place.beside.count == 0) look_beside(place, 0);
+  while (is_rounding(place, which) && look_beside(place, wider * std::abs(place.offset))) {
   }
   const bool known = which < place.beside.count;
   return Node{s, *here, known ? (numbers_[place.beside.begin + which] - *here) / place.offset : std::nan("")};
+}
+
+/// At least so far from the place; false where nothing is told there.
+bool Readings::look_beside(Place& place, double least) {
+  if (least > farthest * stepper_.step().distance || !stepper_.prober().probe(place.s)) return false;
+  const double offset = stepper_.prober().look_beside(least);
+  if (offset == 0) return false;
+  place.offset = offset;
+  place.beside = read(stepper_.prober().beside());
+  return true;
+}
+
+/// Whether a real part does not change by more than rounding from the place to the one beside it.
+bool Readings::is_rounding(const Place& place, std::size_t which) const {
+  if (which < real_part(0) || which >= place.beside.count || eigenvalues_at_end_.size() == 0) return false;
+  const double change = numbers_[place.beside.begin + which] - numbers_[place.values.begin + which];
+  return std::abs(change) <
+         plainly * stepper_.tolerances().on_axis * eigenvalues_at_end_.cwiseAbs().maxCoeff();
 }
 
 }  // namespace arcslip::continuation

@@ -1,5 +1,7 @@
 #include "arcslip/continuation/path/switching.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -245,11 +247,15 @@ class Network {
     take(within, std::move(branch));
   }
 
-  std::vector<Branch> all(const FollowOptions& follow_options) {
-    while (!waiting_.empty() && branches_.size() < follow_options.max_branches && !interrupted_) {
+  std::vector<Branch> all() {
+    while (!waiting_.empty() && !interrupted_) {
       const Guess next = std::move(waiting_.front());
       waiting_.pop_front();
       if (map_.gone(next.unknowns, next.parameters, next.direction)) continue;
+      if (branches_.size() >= options_.max_branches) {
+        branches_.back().warn(more_branches(branches_.size(), options_.parameter, next.parameters(active_)));
+        break;
+      }
       map_.go(map_.way(next.unknowns, next.parameters, next.direction));
       follow(next);
     }
@@ -322,11 +328,16 @@ std::vector<Guess> other_ways(const Problem& problem, const std::string& paramet
   return all_other_ways(symmetric, index_of(problem.parameter_names(), parameter), point, tolerances);
 }
 
+std::string more_branches(std::size_t followed, const std::string& parameter, double at) {
+  return fmt::format("max_branches = {} were followed; what leaves at {} = {:.10g} was not", followed,
+                     parameter, at);
+}
+
 std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, const TraceOptions& options,
-                                    const FollowOptions& follow, const Observer& observer) {
+                                    const Observer& observer) {
   Network network(problem, options, observer);
   network.follow(guess);
-  return network.all(follow);
+  return network.all();
 }
 
 std::vector<Branch> trace_leaving(const Problem& problem, const std::vector<BranchPoint>& points,
@@ -334,15 +345,14 @@ std::vector<Branch> trace_leaving(const Problem& problem, const std::vector<Bran
                                   const Observer& observer) {
   Network network(problem, options, observer);
   network.leave(points, follow.images);
-  return network.all(follow);
+  return network.all();
 }
 
 std::vector<Branch> trace_connected_through(const Problem& problem, const std::vector<Guess>& solutions,
-                                            const TraceOptions& options, const FollowOptions& follow,
-                                            const Observer& observer) {
+                                            const TraceOptions& options, const Observer& observer) {
   Network network(problem, options, observer);
   for (const Guess& solution : solutions) network.follow_both(solution);
-  return network.all(follow);
+  return network.all();
 }
 
 std::vector<Branch> trace_through(const Problem& problem, const std::vector<Guess>& solutions,

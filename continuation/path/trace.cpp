@@ -150,13 +150,11 @@ void append_reversed(std::vector<BranchPoint>& points, std::size_t skipped, cons
 Branch join(Branch first, std::size_t skipped, const Regime& regime, Branch second) {
   Branch whole;
   whole.first_stop = first.stop;
+  whole.first_explanation = std::move(first.explanation);
   whole.stop = second.stop;
   whole.explanation = std::move(second.explanation);
   whole.warning = std::move(second.warning);
-  if (whole.warning.empty() && !first.warning.empty()) {
-    whole.warning = std::move(first.warning);
-    whole.explanation += "; " + whole.warning;
-  }
+  if (whole.warning.empty() && !first.warning.empty()) whole.warn(first.warning);
   whole.checkpoint = std::move(second.checkpoint);
   if (first.checkpoint) {
     if (!whole.checkpoint) whole.checkpoint.emplace().of = std::move(first.checkpoint->of);

@@ -59,6 +59,8 @@ const KeyTable<continuation::TraceOptions>& continuation_keys() {
            },
            otherwise("true, but with several contacts and more than 24 unknowns false")),
        K("max_points", &S::max_points, at_least(2, INT_MAX), "of a branch, at most"),
+       K("max_branches", &S::max_branches, at_least(1, INT_MAX),
+         "that are followed with `switching`, at most"),
        K("stop_at", &S::stop_at, {" from `from` to `to`", range},
          "values of the parameter to land on exactly; in a study preloads at which every peak gets a row"),
        K::special("stop_after", "name or table",

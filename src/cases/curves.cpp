@@ -9,6 +9,7 @@
 
 #include "arcslip/continuation/curves/meeting_curves.hpp"
 #include "arcslip/continuation/cycles/orbit_problem.hpp"
+#include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/continuation/points/fold_problem.hpp"
 #include "arcslip/continuation/points/hopf_problem.hpp"
 
@@ -128,21 +129,23 @@ namespace {
 /// Adds the curves that these meet, and so on.
 void follow_meeting(const Request& request, continuation::TraceOptions options, const TimeBudget& time,
                     const continuation::Observer& observer, std::vector<TracedBranch>& curves) {
-  constexpr std::size_t most = 50;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const std::vector<BranchPoint> points = curves[i].branch.points;
     for (const BranchPoint& point : points) {
-      if (curves.size() >= most || !time.goes_on()) return;
+      if (!time.goes_on()) return;
       continuation::CurveStart start = continuation::curve_meeting(*curves[i].curve, point);
       if (start.problem == nullptr) continue;
       const std::shared_ptr<ExtendedProblem> problem = std::move(start.problem);
       const auto known = [&](const TracedBranch& curve) { return is_known(curve, *problem, start.point); };
       if (std::any_of(curves.begin(), curves.end(), known)) continue;
+      double& value = start.point.parameters(
+          continuation::index_of(curves[i].base.problem->parameter_names(), options.parameter));
+      if (curves.size() >= options.max_branches)
+        return curves.back().branch.warn(
+            continuation::more_branches(curves.size(), options.parameter, value));
       if (point.type != PointType::bogdanov_takens) {  // beside the point, which is then passed as others are
         constexpr double beside = 1e-3;
         const double middle = 0.5 * (options.from + options.to);
-        double& value = start.point.parameters(
-            continuation::index_of(curves[i].base.problem->parameter_names(), options.parameter));
         value += beside * (value < middle ? 1 : -1) * std::abs(options.to - options.from);
       }
       const Clock::time_point begun = Clock::now();

@@ -58,9 +58,9 @@ std::vector<TracedBranch> trace_branches(const Request& request, const Subject& 
     solutions = std::make_shared<const problems::SolutionCount>(std::move(all.count));
   }
   if (request->switching && request->start) {
-    branches = continuation::trace_connected_through(problem, begun, rest(), {}, observer);
+    branches = continuation::trace_connected_through(problem, begun, rest(), observer);
   } else if (request->switching) {
-    branches = continuation::trace_connected(problem, subject.guess, rest(), {}, observer);
+    branches = continuation::trace_connected(problem, subject.guess, rest(), observer);
   } else if (request->all_solutions) {
     branches = continuation::trace_through(problem, begun, rest(), observer);
   } else if (request->start) {

@@ -267,7 +267,10 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
   const std::vector<PartModes> found = structures_of(system).modes(system);
   if (!found.empty()) summary[found.front().is_solved ? "full_solves" : "reduction"] = modes_to_json(found);
   if (traced.request->problem.model == nullptr) summary["harmonics"] = harmonics_of(traced.base.harmonics);
-  if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
+  if (traced.branch.first_stop) {
+    summary["first_stop"] = to_string(*traced.branch.first_stop);
+    summary["first_explanation"] = traced.branch.first_explanation;
+  }
   if (why_not_verifiable(*traced.request).empty()) {
     const std::optional<problems::BalanceErrors> errors = problems::largest_errors(
         traced.request->problem.system, traced.base.harmonics, traced.branch, traced.request->options.go_on);

@@ -372,7 +372,8 @@ TEST_CASE("A branch traced both ways has status 0 only if both parts have an end
                       " --set branch.from=-0.02 --set branch.to=-1e-4 --set continuation.max_points=7");
   CHECK(cut.status == 3);
   CHECK(is_one_line(cut.err));
-  CHECK_THAT(cut.err, ContainsSubstring("branch 0: max_points: this ended the part before the start"));
+  CHECK_THAT(cut.err,
+             ContainsSubstring("branch 0: max_points, before the start: max_points = 7 points were stored"));
 }
 
 TEST_CASE("A curve that is nowhere found has status 3 and says where it was looked for") {

@@ -13,6 +13,7 @@
 using namespace arcslip;
 using namespace arcslip::continuation;
 using namespace arcslip::testing;
+using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
@@ -178,9 +179,11 @@ TEST_CASE("All waves of a ring of cells are found where they become critical", "
   for (const double max_step : {0.1, 0.2}) {
     TraceOptions options = over("lambda", -0.1, 0.6);
     options.max_step = max_step;
+    options.max_branches = 1;
     const std::vector<Branch> all =
-        trace_connected(problem, {Vector::Zero(count), vector_of({-0.1})}, options, {.max_branches = 1});
+        trace_connected(problem, {Vector::Zero(count), vector_of({-0.1})}, options);
     REQUIRE(all.size() == 1);
+    CHECK_THAT(all[0].warning, ContainsSubstring("max_branches = 1 were followed; what leaves at lambda = "));
     const std::vector<double> found = lambdas(of_type(all[0], PointType::branch_point));
     REQUIRE(std::ssize(found) == count / 2 + 1);
     for (Index m = 0; m <= count / 2; ++m)
@@ -192,9 +195,11 @@ TEST_CASE("Branches of a ring of cells are localised, whole, and told once", "[m
   const Index count = GENERATE(3, 4);
   CAPTURE(count);
   const Cells problem(count, 0.3, 0.03);
-  const std::vector<Branch> all = trace_connected(problem, {Vector::Zero(count), vector_of({-0.1})},
-                                                  over("lambda", -0.1, 0.4), {.max_branches = 200});
+  TraceOptions options = over("lambda", -0.1, 0.4);
+  options.max_branches = 200;
+  const std::vector<Branch> all = trace_connected(problem, {Vector::Zero(count), vector_of({-0.1})}, options);
   CHECK(all.size() < 200);
+  for (const Branch& one : all) CHECK(one.warning.empty());
   CHECK(all.size() > 4);
   double most = 0;
   for (const Branch& one : all) {

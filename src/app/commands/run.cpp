@@ -48,8 +48,20 @@ struct RunOptions {
 std::string complaint(const continuation::Branch& branch) {
   if (!is_end(branch.stop)) return fmt::format("{}: {}", to_string(branch.stop), branch.explanation);
   if (branch.first_stop && !is_end(*branch.first_stop))
-    return fmt::format("{}: this ended the part before the start", to_string(*branch.first_stop));
-  return "";
+    return fmt::format("{}, before the start: {}", to_string(*branch.first_stop), branch.first_explanation);
+  return branch.warning;
+}
+
+/// Why it ended, where not at an end of its range.
+std::string ends_of(const continuation::Branch& branch) {
+  using continuation::Stop;
+  std::string text;
+  if (branch.first_stop && *branch.first_stop != Stop::reached_end && *branch.first_stop != Stop::left_range)
+    text +=
+        fmt::format("{}, before the start: {}\n", to_string(*branch.first_stop), branch.first_explanation);
+  if (branch.stop != Stop::reached_end || !branch.warning.empty())
+    text += fmt::format("{}: {}\n", to_string(branch.stop), branch.explanation);
+  return text;
 }
 
 /// Refuses what cannot be verified, what no certificate covers, and what has no shapes.
@@ -222,9 +234,7 @@ std::string Run::described(const TracedBranch& traced, std::size_t number) {
   text += traced.surface
               ? surface_sentence(surface_to_json(traced)) + "\n"
               : special_table_header(traced) + special_table(number, traced) + describe_stability(traced);
-  if (traced.branch.stop != continuation::Stop::reached_end)
-    text += fmt::format("{}: {}\n", to_string(traced.branch.stop), traced.branch.explanation);
-  return text;
+  return text + ends_of(traced.branch);
 }
 
 /// Prints what is proven, on stderr what is not.

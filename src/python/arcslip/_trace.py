@@ -130,7 +130,8 @@ def trace_all(
     functions : dict, optional
         Parts of a `Problem` beside f.
     **options
-        Limits and what is looked for, as `trace` takes them.
+        Limits and what is looked for, as `trace` takes them, and `max_branches`, 50 if not given: how many are
+        followed at most.
 
     Returns
     -------

@@ -50,9 +50,9 @@ void require_exact(const PythonProblem& problem, const Guess& guess, const Trace
 std::vector<Branch> traced_by(const std::string& how, const PythonProblem& problem, const Guess& guess,
                               const std::pair<Vector, Vector>& box, const TraceOptions& options,
                               const continuation::Observer& observer) {
-  if (how == "connected") return continuation::trace_connected(problem, guess, options, {}, observer);
+  if (how == "connected") return continuation::trace_connected(problem, guess, options, observer);
   if (how == "connected both")
-    return continuation::trace_connected_through(problem, {guess}, options, {}, observer);
+    return continuation::trace_connected_through(problem, {guess}, options, observer);
   if (how == "both") return {continuation::trace_both(problem, guess, options, observer)};
   if (how == "one") return {continuation::trace(problem, guess, options, observer)};
   continuation::SolveAllOptions seeking;
@@ -60,7 +60,7 @@ std::vector<Branch> traced_by(const std::string& how, const PythonProblem& probl
   seeking.upper = box.second;
   seeking.go_on = options.go_on;
   const std::vector<Guess> all = continuation::solve_all(problem, {guess}, seeking);
-  return how == "all" ? continuation::trace_connected_through(problem, all, options, {}, observer)
+  return how == "all" ? continuation::trace_connected_through(problem, all, options, observer)
                       : continuation::trace_through(problem, all, options, observer);
 }
 
@@ -201,7 +201,10 @@ Branch joined(const Branch& before, Branch after) {
   whole.points.insert(whole.points.end(), middle, after.points.end());
   whole.stop = after.stop;
   whole.explanation = after.explanation;
-  if (after.first_stop) whole.first_stop = after.first_stop;
+  if (after.first_stop) {
+    whole.first_stop = after.first_stop;
+    whole.first_explanation = after.first_explanation;
+  }
   whole.work = before.work + after.work;
   whole.checkpoint = std::move(after.checkpoint);
   return whole;

@@ -69,6 +69,7 @@ const std::vector<std::pair<std::string, Setter>>& setters() {
       {"max_step", plain(&TraceOptions::max_step)},
       {"min_step", plain(&TraceOptions::min_step)},
       {"max_points", plain(&TraceOptions::max_points)},
+      {"max_branches", plain(&TraceOptions::max_branches)},
       {"max_seconds", plain(&TraceOptions::max_seconds)},
       {"bound", plain(&TraceOptions::bound)}};
   return all;

@@ -30,6 +30,6 @@ Branch trace_part(ExtendedProblem& problem, const Guess& start, bool towards_to,
                   const std::function<void(const BranchPoint&)>& again = {});
 
 /// Of two reasons why the halves of a curve ended, the one that a user has to know is the curve's.
-Branch most_telling(Branch curve, const std::string& why_first_ended);
+Branch most_telling(Branch curve);
 
 }  // namespace arcslip::continuation

@@ -42,13 +42,20 @@ struct [[nodiscard]] Branch {
   Stop stop = Stop::no_start;       ///< why it ended
   std::string explanation;  ///< the reason of the stop, a sentence; the warning follows, if there is one
   /// What makes special points doubtful although all points solve the problem: a derivative that is not that
-  /// of F, of an observable or of a border. Empty if none was found.
+  /// of F, of an observable or of a border. Of the last of several branches, also that there are more than
+  /// were asked for. Empty if there is nothing.
   std::string warning;
   /// Why the part before the start ended, of a branch traced in both directions.
   std::optional<Stop> first_stop;
+  std::string first_explanation;  ///< the reason of it
   Work work;
   /// From where `resume` goes on; empty if there is nothing further.
   std::optional<Checkpoint> checkpoint;
+
+  void warn(const std::string& text) {
+    warning += (warning.empty() ? "" : "; ") + text;
+    explanation += "; " + text;
+  }
 
   /// Whether the branch was traced to its end: out of the range at either side, back to its start as a closed
   /// loop, or as far as `stop_after` asked.

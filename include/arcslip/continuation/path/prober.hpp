@@ -31,9 +31,9 @@ class Prober {
   /// What was found at the place last probed.
   const Probe& probed() const { return probed_; }
 
-  /// Goes a little way along the tangent from the point last probed, within the step: returns how far in s,
-  /// or 0 if nothing can be evaluated there.
-  double look_beside();
+  /// Goes a little way along the tangent from the point last probed, within the step and no less than asked
+  /// for: returns how far in s, or 0 if nothing can be evaluated there.
+  double look_beside(double least = 0);
   /// What was found at the place beside it.
   const Probe& beside() const { return beside_; }
 

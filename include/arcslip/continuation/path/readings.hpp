@@ -47,6 +47,8 @@ class Readings {
   };
 
   Place* at(double s);
+  bool look_beside(Place& place, double least);
+  bool is_rounding(const Place& place, std::size_t which) const;
   Values since(std::size_t begin) const { return {begin, numbers_.size() - begin}; }
   Values read_start();
   Values read_end();

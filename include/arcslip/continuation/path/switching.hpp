@@ -14,25 +14,26 @@ namespace arcslip::continuation {
 std::vector<Guess> other_ways(const Problem& problem, const std::string& parameter, const BranchPoint& point,
                               const Tolerances& tolerances = {});
 
-/// What bounds the search.
+/// What is followed.
 struct FollowOptions {
-  std::size_t max_branches = 50;  ///< all of them together
   /// Whether both senses in which a way leaves a given point are images of each other, by a symmetry that is
   /// lost there: one is enough.
   bool images = false;
 };
 
+/// What is said where more leave, at this value of the parameter, than were followed.
+std::string more_branches(std::size_t followed, const std::string& parameter, double at);
+
 /// A branch and all that can be reached from it through branch points and corners, each way once and of those
 /// that are images of each other under the problem's symmetries one, in the order in which they are met. The
 /// first one is traced as `trace` does it.
 std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, const TraceOptions& options,
-                                    const FollowOptions& follow = {}, const Observer& observer = {});
+                                    const Observer& observer = {});
 
 /// The same through solutions at one value of the parameter, from which the first branches are traced both
 /// ways as `trace_through` does it.
 std::vector<Branch> trace_connected_through(const Problem& problem, const std::vector<Guess>& solutions,
-                                            const TraceOptions& options, const FollowOptions& follow = {},
-                                            const Observer& observer = {});
+                                            const TraceOptions& options, const Observer& observer = {});
 
 /// What leaves special points of branches that are known, and all that can be reached from that.
 std::vector<Branch> trace_leaving(const Problem& problem, const std::vector<BranchPoint>& points,

@@ -65,6 +65,8 @@ struct TraceOptions {
   double max_step = 0.1;     ///< largest step, in scaled arclength
   double min_step = 1e-10;   ///< smallest step; a branch that asks for less has ended
   long max_points = 100000;  ///< to be stored; each takes 16 n bytes, 1.6 MB of 10^5 unknowns
+  /// Of those followed from one to the next, all together: the last one's warning says if there are more.
+  std::size_t max_branches = 50;
   /// Wall clock, of all parts of a branch together, the search for its first point included.
   double max_seconds = std::numeric_limits<double>::infinity();
   /// Symmetries of the problem: where the branch has one again that it had lost, and turns into its own image

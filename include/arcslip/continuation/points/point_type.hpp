@@ -29,8 +29,8 @@ enum class PointType {
   period_doubling,              ///< one of its multipliers passes -1
   symmetry_breaking,            ///< a real eigenvalue vanishes along which the solution would lose a symmetry
   generalized_hopf,             ///< of a curve of Hopf points: the first Lyapunov coefficient vanishes
-  resonance_1_1,                ///< of a curve of Neimark-Sacker points: the pair of multipliers meets at 1
-  resonance_1_2,                ///< the pair meets at -1
+  resonance_1_1,                ///< two multipliers are 1: on curves of folds and Neimark-Sacker points
+  resonance_1_2,                ///< two are -1, on curves of period doublings, too
   resonance_1_3,                ///< the torus turns by a third in each round
   resonance_1_4,                ///< and by a quarter
   chenciner,                    ///< the coefficient that tells sub- from supercritical vanishes
