@@ -79,9 +79,10 @@ class MeshWatch {
     const double margin = problem_.field().sparse() ? 0.5 : 0.3;
     const OrbitFrame& frame = problem_.frame(regime);
     const Matrix orbit = problem_.orbit(u);
-    OrbitMesh mesh = frame.mesh.equidistributed(orbit, frame.range, problem_.resolution());
+    const Vector range = frame.range.cwiseMax(ranges(orbit, frame.scale));
+    OrbitMesh mesh = frame.mesh.equidistributed(orbit, range, problem_.resolution());
     Matrix carried = frame.mesh.carried(orbit, mesh);
-    if (mesh.errors(carried, frame.range).maxCoeff() > margin * options_.tolerance) return std::nullopt;
+    if (mesh.errors(carried, range).maxCoeff() > margin * options_.tolerance) return std::nullopt;
     return problem_.add_frame(mesh, carried, p);
   }
 

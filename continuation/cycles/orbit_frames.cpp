@@ -120,7 +120,8 @@ std::string OrbitProblem::describe(const Regime& regime) const {
 
 double OrbitProblem::mesh_error(const Vector& u, const Regime& regime) const {
   const OrbitFrame& at = frame(regime);
-  return at.mesh.errors(orbit(u), at.range).maxCoeff();
+  const auto values = orbit(u);
+  return at.mesh.errors(values, at.range.cwiseMax(ranges(values, at.scale))).maxCoeff();
 }
 
 double OrbitProblem::phase_grip(const Vector& u, const Regime& regime) const {

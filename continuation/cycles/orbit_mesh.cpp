@@ -7,9 +7,10 @@ namespace arcslip::continuation {
 
 Vector ranges(const Matrix& orbit, const Vector& scale) {
   constexpr double least = 1e-3;
+  constexpr double at_rest = 1e-7;  // of the scale: of less a millionth is rounding
   const Vector range = (orbit.rowwise().maxCoeff() - orbit.rowwise().minCoeff()).cwiseQuotient(scale);
   const double largest = range.maxCoeff();
-  return largest > 0 ? range.cwiseMax(least * largest).cwiseProduct(scale) : scale;
+  return largest > 0 ? range.cwiseMax(std::max(least * largest, at_rest)).cwiseProduct(scale) : scale;
 }
 
 double OrbitMesh::place(Index node) const {

@@ -67,11 +67,19 @@ class Operator {
   SparseMatrix pattern_;
 };
 
-/// Of a problem's Jacobian at a point along real directions, by differences.
+/// Of F along one real direction v: C(v, v, v) and, where the problem gives no series, the numbers of B(v,
+/// .).
+struct Along {
+  Vector v;
+  Vector cube;
+  Vector second;
+};
+
+/// Of F at a point: exact by the problem's series, else by differences of its Jacobian.
 class Derivatives {
  public:
   Derivatives(const Problem& problem, const Guess& at)
-      : at_(at), linearization_(problem), scale_(at.unknowns.size()) {
+      : problem_(problem), at_(at), linearization_(problem), scale_(at.unknowns.size()) {
     Vector parameter_scale(at.parameters.size());
     problem.scale(at.unknowns, at.parameters, scale_, parameter_scale);
   }
@@ -85,29 +93,62 @@ class Derivatives {
     return a.allFinite();
   }
 
-  /// B(v, .) and C(v, v, .), by their numbers, after `linear`.
-  bool along(const Vector& v, Vector& first, Vector& second) {
-    constexpr int most = 5;  // of second derivatives finer differences are rounding
-    std::map<double, Vector> known;
-    const auto once = [&](double h, Vector& out) {
-      const auto [place, is_new] = known.try_emplace(h);
-      if (is_new && !jacobian(at_.unknowns + h * v, place->second)) place->second.resize(0);
-      out = place->second;
-      return out.size() > 0;
-    };
-    // odd in h; its derivative at 0 is the second one of `once`
-    const auto twice = [&](double h, Vector& out) {
-      Vector behind;
-      if (!once(h, out) || !once(-h, behind)) return false;
-      out = (out + behind - 2 * here_) / h;
-      return true;
-    };
-    const double begin = step(v);
-    return std::isfinite(differentiate(once, begin, first).error) &&
-           std::isfinite(differentiate(twice, begin, second, 0, most).error);
+  /// After `linear`.
+  bool along(const Vector& v, Along& out) {
+    out.v = v;
+    Matrix terms;
+    if (!series(v, 3, terms)) return differences(v, out);
+    out.cube = 6 * terms.col(3);
+    return terms.allFinite();
+  }
+
+  /// B(v, x), by B(v + y, v + y) and B(v - y, v - y) with y as long as v.
+  Vector second(const Along& of, const Vector& x) const {
+    if (of.second.size() > 0) return matrix_->apply(of.second, x);
+    const double longer = of.v.norm() / x.norm();
+    if (!std::isfinite(longer) || longer == 0) return Vector::Zero(x.size());
+    Matrix sum;
+    Matrix difference;
+    if (!series(of.v + longer * x, 2, sum) || !series(of.v - longer * x, 2, difference))
+      return Vector::Constant(x.size(), std::nan(""));
+    return (sum.col(2) - difference.col(2)) / (2 * longer);
   }
 
  private:
+  bool series(const Vector& v, Index order, Matrix& terms) const {
+    Matrix u = Matrix::Zero(v.size(), order + 1);
+    u.col(0) = at_.unknowns;
+    u.col(1) = v;
+    return problem_.series(u, at_.parameters, at_.regime, terms);
+  }
+
+  bool differences(const Vector& v, Along& out) {
+    constexpr int coarse = 5;                    // steps that come before those whose differences may be
+    constexpr double more_than_rounding = 1e-9;  // rounding: of the Jacobian, if they are not
+    const double begin = step(v);
+    const double finest = begin * std::pow(0.25, coarse);
+    std::map<double, Vector> known;
+    const auto once = [&](double h, Vector& value) {
+      const auto [place, is_new] = known.try_emplace(h);
+      if (is_new && !jacobian(at_.unknowns + h * v, place->second)) place->second.resize(0);
+      value = place->second;
+      return value.size() > 0;
+    };
+    // odd in h; its derivative at 0 is the second one of `once`
+    const auto twice = [&](double h, Vector& value) {
+      Vector behind;
+      if (!once(h, value) || !once(-h, behind)) return false;
+      value = (value + behind - 2 * here_) / h;
+      return std::abs(h) > finest || std::abs(h) * value.norm() > more_than_rounding * here_.norm();
+    };
+    Vector third;  // the numbers of C(v, v, .)
+    if (!std::isfinite(differentiate(once, begin, out.second).error) ||
+        !std::isfinite(differentiate(twice, begin, third).error))
+      return false;
+    out.cube = matrix_->apply(third, v);
+    return true;
+  }
+
   bool jacobian(const Vector& u, Vector& out) {
     if (!linearization_.evaluate(u, at_.parameters, at_.regime)) return false;
     out = matrix_->numbers(linearization_);
@@ -120,6 +161,7 @@ class Derivatives {
     return length > 0 ? first / length : first;
   }
 
+  const Problem& problem_;
   const Guess& at_;
   Linearization linearization_;
   std::optional<Operator> matrix_;
@@ -161,35 +203,29 @@ std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, dou
   const Vector real = q.real();
   const Vector imaginary = q.imag();
   const std::array<Vector, 4> directions{real, imaginary, real + imaginary, real - imaginary};
-  std::array<Vector, 4> second;
-  std::array<Vector, 4> cubes;  // C(v, v, v)
+  std::array<Along, 4> along;
   for (std::size_t i = 0; i < 4; ++i) {
-    Vector third;
-    if (!derivatives.along(directions[i], second[i], third)) return std::nullopt;
-    cubes[i] = matrix->apply(third, directions[i]);
+    if (!derivatives.along(directions[i], along[i])) return std::nullopt;
   }
-  const Vector steady = matrix->apply(second[0], real) + matrix->apply(second[1], imaginary);  // B(q, q*)
-  ComplexVector turning(q.size());                                                             // B(q, q)
-  turning.real() = matrix->apply(second[0], real) - matrix->apply(second[1], imaginary);
-  turning.imag() = matrix->apply(second[0], imaginary) + matrix->apply(second[1], real);
-  const Vector mean = matrix->solve(a, 0, steady).real();
-  const ComplexVector higher = -matrix->solve(a, Complex(0, 2 * omega), turning);
-
-  const Vector mixed = (cubes[2] + cubes[3] - 2 * cubes[0]) / 6;  // C(Re, Im, Im)
-  const Vector other = (cubes[2] - cubes[3] - 2 * cubes[1]) / 6;  // C(Re, Re, Im)
-  ComplexVector cube(q.size());                                   // C(q, q, q*)
-  cube.real() = cubes[0] + mixed;
-  cube.imag() = cubes[1] + other;
+  const auto by_real = [&](const Vector& x) { return derivatives.second(along[0], x); };
+  const auto by_imaginary = [&](const Vector& x) { return derivatives.second(along[1], x); };
   const Complex j(0, 1);
-  const auto along = [&](double sign, const ComplexVector& x) -> ComplexVector {  // B(q, x), or B(q*, x)
-    const Vector by_real = x.real();
-    const Vector by_imaginary = x.imag();
-    return matrix->apply(second[0], by_real) + j * matrix->apply(second[0], by_imaginary) +
-           sign * j * (matrix->apply(second[1], by_real) + j * matrix->apply(second[1], by_imaginary));
+  const auto second = [&](double sign, const ComplexVector& x) -> ComplexVector {  // B(q, x), or B(q*, x)
+    return by_real(x.real()) + j * by_real(x.imag()) +
+           sign * j * (by_imaginary(x.real()) + j * by_imaginary(x.imag()));
   };
+  const ComplexVector mean = matrix->solve(a, 0, second(-1, q).real().cast<Complex>());
+  const ComplexVector higher = -matrix->solve(a, Complex(0, 2 * omega), second(1, q));
+
+  const auto cubed = [&](std::size_t i) -> const Vector& { return along[i].cube; };
+  const Vector mixed = (cubed(2) + cubed(3) - 2 * cubed(0)) / 6;  // C(Re, Im, Im)
+  const Vector other = (cubed(2) - cubed(3) - 2 * cubed(1)) / 6;  // C(Re, Re, Im)
+  ComplexVector cube(q.size());                                   // C(q, q, q*)
+  cube.real() = cubed(0) + mixed;
+  cube.imag() = cubed(1) + other;
   const Complex cubic = p.dot(cube);
-  const Complex by_mean = p.dot(along(1, mean.cast<Complex>()));
-  const Complex by_second = p.dot(along(-1, higher));
+  const Complex by_mean = p.dot(second(1, mean));
+  const Complex by_second = p.dot(second(-1, higher));
   const double terms = std::abs(cubic) + 2 * std::abs(by_mean) + std::abs(by_second);
   return HopfForm{omega, 0.5 * (cubic - 2.0 * by_mean + by_second).real() / omega, 0.5 * terms / omega};
 }

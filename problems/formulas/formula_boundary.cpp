@@ -118,6 +118,7 @@ FormulaBoundary::FormulaBoundary(const FormulaSystem& system)
   rates.insert(rates.begin() + told_, free.size(), Formula{"free", "0"});
   for (std::size_t i = 0; i < system.integrals.size(); ++i)
     names_.push_back(fmt::format("integral {}", i + 1));
+  scale_ = FormulaScale(system, names_, parameters_);
   std::vector<Formula> definitions = system.definitions;
   definitions.push_back(place);
   rates_ = compile({with(with({scaled_place}, names_), parameters_), definitions, rates});

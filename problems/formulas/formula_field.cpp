@@ -15,6 +15,7 @@ FormulaField::FormulaField(const FormulaSystem& system) : equations_(right_hand_
     turns_.push_back(turns ? two_pi : 0);
   }
   for (const FormulaParameter& parameter : system.parameters) parameters_.push_back(parameter.name);
+  scale_ = FormulaScale(system, names_, parameters_);
   period_ = compile({parameters_, {}, {*system.period}});
 }
 

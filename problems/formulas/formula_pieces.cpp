@@ -59,6 +59,7 @@ FormulaPieces::FormulaPieces(const FormulaSystem& system) : told_(std::ssize(sys
   }
   std::vector<std::string> variables{"_nothing"};
   variables.insert(variables.end(), names_.begin(), names_.end());
+  scale_ = FormulaScale(system, names_, parameters_);
   variables.insert(variables.end(), parameters_.begin(), parameters_.end());
 
   std::vector<std::string> order = system.cycle;

@@ -60,7 +60,8 @@ FormulaProblem::FormulaProblem(const FormulaSystem& system)
       unknowns_(names_of(system.equations)),
       parameters_(names_of(system.parameters)),
       observables_(names_of(system.observables)),
-      angles_(system.angles) {
+      angles_(system.angles),
+      scale_(system, unknowns_, parameters_) {
   check_names(system);
   equations_ = tape_of(system, system.equations, kind_ == FormulaKind::map ? system.iterate : 1);
   for (const Formula& one : system.observables) observed_.push_back(tape_of(system, {one}, 1));

@@ -147,11 +147,28 @@ void check_names(const FormulaSystem& system) {
   names.add(system.observables);
   names.add(system.pieces);
   if (system.interval) names.add(*system.interval, system.equations);
-  for (const Formula& start : system.start) {
-    const bool known = std::any_of(system.equations.begin(), system.equations.end(),
-                                   [&](const Formula& one) { return one.name == start.name; });
-    if (!known)
-      throw FormulaError(start.place.empty() ? start.name : start.place, "there is no equation of this name");
+  const auto has = [](const auto& all, const std::string& name) {
+    return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
+  };
+  const auto require = [](bool known, const auto& one, const char* why) {
+    if (!known) throw FormulaError(one.place.empty() ? one.name : one.place, why);
+  };
+  for (const Formula& start : system.start)
+    require(has(system.equations, start.name), start, "there is no equation of this name");
+  for (const FormulaParameter& one : system.scale)
+    require(has(system.equations, one.name) || has(system.parameters, one.name), one,
+            "there is no unknown or parameter of this name");
+}
+
+FormulaScale::FormulaScale(const FormulaSystem& system, const std::vector<std::string>& unknowns,
+                           const std::vector<std::string>& parameters)
+    : unknowns_(Vector::Ones(std::ssize(unknowns))), parameters_(Vector::Ones(std::ssize(parameters))) {
+  for (const FormulaParameter& one : system.scale) {
+    for (const auto& [names, magnitudes] :
+         {std::pair(&unknowns, &unknowns_), std::pair(&parameters, &parameters_)}) {
+      const auto place = std::find(names->begin(), names->end(), one.name);
+      if (place != names->end()) (*magnitudes)(place - names->begin()) = one.value;
+    }
   }
 }
 

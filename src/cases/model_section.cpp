@@ -72,6 +72,12 @@ void read_parameters_table(FormulaSystem& system, const TomlSection& section) {
   if (system.parameters.empty()) section.mismatch("parameters", expected);
 }
 
+void read_scale(FormulaSystem& system, const TomlSection& section) {
+  const TomlSection table = section.inside("scale", "a table of numbers > 0 by names");
+  for (const NamedNode& entry : in_order(table))
+    system.scale.push_back({entry.key, table.number(entry.key, positive()), table.name(entry.key)});
+}
+
 void read_equations(FormulaSystem& system, const TomlSection& section) {
   const char* const expected = "a table with a formula for each unknown";
   section.require("equations", expected);
@@ -262,7 +268,13 @@ const KeyTable<FormulaSystem>& model_keys() {
            "start", "table of formulas or numbers",
            "a guess of the unknowns where the branch begins, by parameters and what is between the "
            "ends of an interval",
-           formulas("start", &FormulaSystem::start), otherwise("0 of each"))},
+           formulas("start", &FormulaSystem::start), otherwise("0 of each")),
+       ModelKey::special(
+           "scale", "table of numbers > 0",
+           "typical magnitudes of unknowns and parameters that are far below 1, by their names: "
+           "steps are a part of them",
+           read_scale,
+           otherwise("1 of each, of a parameter that is continued below 0.01 the largest value"))},
       boundary_keys(),
       piecewise_keys()};
   return keys;
@@ -276,6 +288,24 @@ FormulaSystem read_formulas(const TomlDocument& document) {
   return system;
 }
 
+/// Of continued parameters that stay within a tenth of the longest step: as far as they go.
+void scale_by_ranges(const TomlDocument& document, FormulaSystem& system) {
+  constexpr double little = 0.01;
+  const toml::node_view<const toml::node> branch = document.root()["branch"];
+  const auto add = [&](const auto& name, const auto& from, const auto& to) {
+    const std::string of = name.value_or(std::string());
+    const double largest = std::max(std::abs(from.value_or(1.0)), std::abs(to.value_or(1.0)));
+    const auto is_it = [&](const FormulaParameter& one) { return one.name == of; };
+    if (largest > 0 && largest < little &&
+        std::any_of(system.parameters.begin(), system.parameters.end(), is_it) &&
+        std::none_of(system.scale.begin(), system.scale.end(), is_it))
+      system.scale.push_back({of, largest});
+  };
+  add(branch["parameter"], branch["from"], branch["to"]);
+  add(branch["parameters"][0], branch["window"][0], branch["window"][1]);
+  add(branch["parameters"][1], branch["from"], branch["to"]);
+}
+
 }  // namespace
 
 bool has_model(const TomlDocument& document) { return document.root().contains(section_name); }
@@ -286,7 +316,9 @@ std::shared_ptr<const LibraryModel> read_model_section(const TomlDocument& docum
   if (document.root().contains("system"))
     document.fail(document.root().get("system"), "system", "not beside [model], which is the system");
   try {
-    return std::make_shared<const LibraryModel>(problems::model_of(read_formulas(document)));
+    FormulaSystem system = read_formulas(document);
+    scale_by_ranges(document, system);
+    return std::make_shared<const LibraryModel>(problems::model_of(system));
   } catch (const FormulaError& error) {
     document.fail(document.root().at_path(error.place()).node(), error.place(), error.why());
   }

@@ -24,6 +24,8 @@ class Model(Problem):
         A number for each name.
     start : dict, optional
         A guess of unknowns, as numbers or formulas of the parameters; 0 of those that are left out.
+    scale : dict, optional
+        Typical magnitudes of unknowns and parameters that are far below 1, by their names.
     definitions : dict, optional
         Formulas by names that equations and observables may use, in any order.
     observables : dict, optional
@@ -63,7 +65,7 @@ class Model(Problem):
         A formula cannot be read: which one, where, and what was expected.
     """
 
-    def __init__(self, equations, parameters, start=None, definitions=None, observables=None, *, kind="flow", iterate=1, period=None, angles=(), interval=None, conditions=(), integrals=(), free=(), pieces=None, cycle=()):
+    def __init__(self, equations, parameters, start=None, definitions=None, observables=None, *, kind="flow", iterate=1, period=None, angles=(), interval=None, conditions=(), integrals=(), free=(), pieces=None, cycle=(), scale=None):
         if kind not in _KINDS:
             raise ValueError(f"kind: expected one of {', '.join(_KINDS)}, got {kind!r}")
         if iterate != int(iterate) or not 1 <= iterate <= 100 or (iterate > 1 and kind != "map"):
@@ -76,10 +78,12 @@ class Model(Problem):
         if wrong:
             raise ValueError(f"angles: there is no '{wrong[0]}' among {', '.join(equations)}")
         self.values = {str(name): _number(name, value) for name, value in parameters.items()}
+        scale = {str(name): _number(name, value) for name, value in (scale or {}).items()}
         self._formulas = _core.Formulas(
             kind,
             int(iterate),
             list(self.values.items()),
+            list(scale.items()),
             _texts("definitions", definitions),
             _texts("equations", equations),
             _texts("observables", observables),
@@ -93,6 +97,8 @@ class Model(Problem):
         self.iterate = int(iterate)
         self.parameters = tuple(self.values)
         self.unknowns = tuple(str(name) for name in equations)
+        self.unknown_scale = [scale.get(name, 1.0) for name in self.unknowns]
+        self.parameter_scale = [scale.get(name, 1.0) for name in self.parameters]
         self.equilibrium = kind == "flow"
         self._observed = [str(name) for name in observables or {}]
         if not self._observed:

@@ -66,7 +66,8 @@ void set_pieces(const Pieces& given, FormulaSystem& system) {
 }
 
 Formulas made(const std::string& kind, int iterate,
-              const std::vector<std::pair<std::string, double>>& numbers, const Texts& definitions,
+              const std::vector<std::pair<std::string, double>>& numbers,
+              const std::vector<std::pair<std::string, double>>& scale, const Texts& definitions,
               const Texts& equations, const Texts& observables, const Texts& start,
               const std::optional<std::string>& period, const std::vector<std::string>& angles,
               const std::optional<Conditions>& conditions, const std::optional<Pieces>& pieces) {
@@ -74,6 +75,7 @@ Formulas made(const std::string& kind, int iterate,
   system.angles = angles;
   if (period) system.period = Formula{"period", *period};
   for (const auto& [name, value] : numbers) system.parameters.push_back({name, value, "parameters." + name});
+  for (const auto& [name, value] : scale) system.scale.push_back({name, value, "scale." + name});
   system.definitions = formulas_of("definitions", definitions);
   system.equations = formulas_of("equations", equations);
   system.observables = formulas_of("observables", observables);

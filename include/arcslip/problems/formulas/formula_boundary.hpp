@@ -30,6 +30,9 @@ class FormulaBoundary : public continuation::BoundaryField {
                               const continuation::FieldValues& out) const override;
   [[nodiscard]] bool end_conditions(const Vector& left, const Vector& right, const Vector& p,
                                     const continuation::EndConditions& out) const override;
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override {
+    scale_(u, p, unknowns, parameters);
+  }
 
   /// The guess at s, at values of the free parameters and of the others; false where it has no value.
   [[nodiscard]] bool guess(double s, const Vector& free, const Vector& p, Vector& u) const;
@@ -42,10 +45,11 @@ class FormulaBoundary : public continuation::BoundaryField {
   std::string variable_;
   std::vector<std::string> names_;       // of u: unknowns, free parameters, integrals
   std::vector<std::string> parameters_;  // p
-  Tape rates_;                           // of s, u, p
-  Tape ends_;                            // g of the told ones at both ends, free parameters, p
-  Tape interval_;                        // of free parameters, p
-  Tape start_;                           // of s, free parameters, p
+  FormulaScale scale_;
+  Tape rates_;     // of s, u, p
+  Tape ends_;      // g of the told ones at both ends, free parameters, p
+  Tape interval_;  // of free parameters, p
+  Tape start_;     // of s, free parameters, p
 };
 
 /// Which parameters of a system are not free, in its order, then those that are.

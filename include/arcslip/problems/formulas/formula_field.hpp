@@ -27,6 +27,9 @@ class FormulaField : public continuation::Field {
                                       const continuation::FieldColumns& out) const override;
   [[nodiscard]] bool series(double t, const Matrix& u, const Vector& p, Matrix& out) const override;
   double turn(Index unknown) const override { return turns_[static_cast<std::size_t>(unknown)]; }
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override {
+    scale_(u, p, unknowns, parameters);
+  }
   bool is_periodic() const override { return true; }
   double period(const Vector& p, Vector* by_parameters) const override {
     return period_of(period_, p, by_parameters);
@@ -36,6 +39,7 @@ class FormulaField : public continuation::Field {
   std::vector<std::string> names_;
   std::vector<double> turns_;
   std::vector<std::string> parameters_;
+  FormulaScale scale_;
   Tape equations_;  // of t, u, p
   Tape period_;     // of p
 };

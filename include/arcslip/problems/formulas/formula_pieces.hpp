@@ -30,6 +30,9 @@ class FormulaPieces : public continuation::PiecewiseField {
                             const continuation::FieldValues& out) const override;
   [[nodiscard]] bool jump(Index piece, const Vector& u, const Vector& p,
                           const continuation::FieldValues& out) const override;
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override {
+    scale_(u, p, unknowns, parameters);
+  }
   double turn(Index unknown) const override { return turns_[static_cast<std::size_t>(unknown)]; }
 
  private:
@@ -44,6 +47,7 @@ class FormulaPieces : public continuation::PiecewiseField {
   std::vector<std::string> names_;
   std::vector<double> turns_;
   std::vector<std::string> parameters_;
+  FormulaScale scale_;
   std::vector<std::string> piece_names_;
   std::vector<Piece> pieces_;
 };

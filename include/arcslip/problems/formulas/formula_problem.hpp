@@ -59,6 +59,8 @@ struct FormulaSystem {
   std::optional<Formula> period = {};             ///< of what depends on t, by parameters
   std::vector<std::string> angles = {};           ///< unknowns of which whole turns, 2 pi, do not matter
   std::vector<Formula> start = {};  ///< of unknowns, by parameters; 0 of those that are left out
+  /// Typical magnitudes of unknowns and parameters, by their names; 1 of those that are left out.
+  std::vector<FormulaParameter> scale = {};
 
   // of boundary value problems; start may have x here
   std::optional<FormulaInterval> interval = {};
@@ -72,6 +74,23 @@ struct FormulaSystem {
 
 /// Refuses names that mean two things. Throws FormulaError.
 void check_names(const FormulaSystem& system);
+
+/// Problem::scale of these unknowns and parameters: magnitudes, the typical ones where those are larger.
+class FormulaScale {
+ public:
+  FormulaScale() = default;
+  FormulaScale(const FormulaSystem& system, const std::vector<std::string>& unknowns,
+               const std::vector<std::string>& parameters);
+
+  void operator()(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
+    unknowns = u.cwiseAbs().cwiseMax(unknowns_);
+    parameters = p.cwiseAbs().cwiseMax(parameters_);
+  }
+
+ private:
+  Vector unknowns_;
+  Vector parameters_;
+};
 
 /// f alone, of the time t, the unknowns and the parameters, in this order: here formulas may have t. Throws
 /// FormulaError.
@@ -96,6 +115,9 @@ class FormulaProblem : public continuation::Problem {
                             const Vector& w, const Vector& du, const Vector& dp, Vector& out) const override;
   [[nodiscard]] bool series(const Matrix& u, const Vector& p, const continuation::Regime& regime,
                             Matrix& out) const override;
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override {
+    scale_(u, p, unknowns, parameters);
+  }
   bool is_equilibrium() const override { return kind_ == FormulaKind::flow; }
   bool is_map() const override { return kind_ == FormulaKind::map; }
 
@@ -131,6 +153,7 @@ class FormulaProblem : public continuation::Problem {
   std::vector<std::string> parameters_;
   std::vector<std::string> observables_;
   std::vector<std::string> angles_;
+  FormulaScale scale_;
   Tape equations_;              // of u, p
   std::vector<Tape> observed_;  // of u, p, each by itself: one may have no value where others do
 };
