@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <numeric>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "arcslip/continuation/linear/sparse_bordered_solver.hpp"
@@ -150,4 +152,29 @@ TEST_CASE("A nerve's cycles fold and double their period next to one another", "
   // by degree 7 on 80 intervals with a tolerance of 1e-9
   check_values(values_at(all[0], PointType::fold, "I"), {7.84624712, 7.92168549, 6.26422127}, 1e-8);
   check_values(values_at(all[0], PointType::period_doubling, "I"), {7.8492374, 7.92167768}, 1e-8);
+}
+
+TEST_CASE("Canards fold where the parameter stands still but for rounding", "[cycles]") {
+  // Nagumo's and FitzHugh's nerve: folds by degree 7 and a tolerance of 1e-9
+  const std::string nerve = R"case([model.parameters]
+a = 0
+b = 0.8
+c = 4
+[model.equations]
+x = "c*(x - x^3/3 + y)"
+y = "-(x - a + b*y)/c"
+[branch]
+parameter = "a"
+from = 0.3
+to = 1
+switching = true
+)case";
+  const std::vector<std::pair<std::string, double>> folds = {
+      {"3", 0.43051824}, {"3.6", 0.44158145}, {"4", 0.44635136}, {"5", 0.45366695}};
+  for (const auto& [c, a] : folds) {
+    CAPTURE(c);
+    const auto all = cycles_of(traced_of(nerve, {"model.parameters.c=" + c}));
+    REQUIRE(all.size() == 1);
+    check_values(values_at(all[0], PointType::fold, "a"), {a}, 1e-8);
+  }
 }
