@@ -75,9 +75,9 @@ Zero ZeroSearch::first_between(const Node& a, const Node& b, int sign, double to
                  ? by_sign(a, b, sign, which)
                  : Zero{Zero::State::failed};
     case FirstZero::Kind::touch:
-      return {divisor.low || divisor.high || change < options_.least_touched ? Zero::State::absent
-                                                                             : Zero::State::found,
-              found.before.s};
+      if (divisor.low || divisor.high) return {Zero::State::absent};
+      if (change >= options_.least_touched) return {Zero::State::found, found.before.s};
+      return by_sign(a, b, sign, which);
     case FirstZero::Kind::change:
       return locate(found.before, found.behind, std::max(std::abs(from.value), std::abs(to.value)), value_at);
     case FirstZero::Kind::none: break;

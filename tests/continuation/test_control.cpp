@@ -89,6 +89,27 @@ TEST_CASE("Zeros of a function in pieces are found between its jumps, in whateve
   }
 }
 
+TEST_CASE("A function that touches zero in a step changes its sign there as well") {
+  const ScalarProblem line(
+      {"p"}, [](double u, const Vector& p) { return u - p(0); }, [](double, const Vector&) { return 1; },
+      {[](double, const Vector&) { return -1; }});
+  TraceOptions options = over("p", 0, 1);
+  for (const double behind : {0.003, 0.02, 0.05}) {
+    for (const double touch : {0.3, 0.41, 0.46, 0.5, 0.613}) {
+      CAPTURE(behind, touch);
+      const double change = touch + behind;
+      options.events = {{"touches", [=](const Vector& u, const Vector&, const Regime&) {
+                           return (u(0) - touch) * (u(0) - touch) * (u(0) - change);
+                         }}};
+      const Branch branch = trace(line, {vector_of({0}), vector_of({0})}, options);
+      REQUIRE(branch.complete());
+      const auto events = of_type(branch, PointType::event);
+      REQUIRE(events.size() == 1);
+      CHECK_THAT(events[0].unknowns(0), WithinAbs(change, 1e-8));
+    }
+  }
+}
+
 TEST_CASE("Both directions from a start in between make one branch") {
   const Branch both = trace_both(Cusp(), {vector_of({1.2}), vector_of({0.528})}, over("mu", -2, 2));
   CHECK(both.complete());
