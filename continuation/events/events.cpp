@@ -12,8 +12,11 @@ namespace arcslip::continuation {
 int Passage::real_crossings() const {
   if (before.unstable < 0) return 0;
   const ComplexVector& values = watch.eigenvalues();
-  const double zero =
-      stepper.tolerances().zero_eigenvalue * (values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0);
+  double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0;
+  for (const Look& look : watch.kept()) {  // where all of them vanish together
+    for (const double rate : look.rates) largest = std::max(largest, std::abs(rate));
+  }
+  const double zero = stepper.tolerances().zero_eigenvalue * largest;
   int more = 0;
   for (Index i = 0; i < values.size(); ++i) {
     if (std::abs(values(i)) <= zero) more += i < before.unstable ? -1 : 1;

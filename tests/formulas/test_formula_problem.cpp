@@ -189,6 +189,27 @@ TEST_CASE("The logistic map doubles its period at r = 3, and its 2-cycle at 1 + 
   }
 }
 
+TEST_CASE("Fixed points of an iterated map pass where their only multiplier is 1", "[formulas]") {
+  FormulaSystem map{.kind = FormulaKind::map,
+                    .parameters = {{"r", 2}},
+                    .equations = {{"x", "r*x*(1 - x)"}},
+                    .start = {{"x", "1 - 1/r"}}};
+  for (const int iterate : {2, 4}) {
+    for (const double from : {2.3, 2.5, 2.8, 2.94, 2.98}) {
+      CAPTURE(iterate, from);
+      map.iterate = iterate;
+      const Branch branch = traced(map, over("r", from, 3.3));
+      REQUIRE(branch.stop == continuation::Stop::reached_end);
+      CHECK_THAT(only_point(branch, PointType::branch_point).parameters(0),
+                 Catch::Matchers::WithinAbs(3, 1e-9));
+      const BranchPoint& last = branch.points.back();
+      CHECK_THAT(last.unknowns(0), Catch::Matchers::WithinAbs(1 - 1 / 3.3, 1e-12));
+      CHECK(branch.points.front().unstable == 0);
+      CHECK(last.unstable == 1);
+    }
+  }
+}
+
 TEST_CASE("A period-3 window of the logistic map opens at 1 + sqrt 8", "[formulas]") {
   const FormulaSystem map{.kind = FormulaKind::map,
                           .iterate = 3,
