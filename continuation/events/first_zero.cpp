@@ -141,9 +141,8 @@ class Subdivision {
   FirstZero run(const Node& a, const Node& b) {
     const FirstZero first = between(a, b, false, 0);
     const bool touches = lowest_ && std::abs(lowest_->value) <= rounded * size_;
-    const bool is_its_end = first.kind == FirstZero::Kind::change && lowest_ &&
-                            (lowest_->s == first.before.s || lowest_->s == first.behind.s);
-    return touches && !is_its_end ? FirstZero{FirstZero::Kind::touch, *lowest_, *lowest_} : first;
+    const bool is_first = first.kind != FirstZero::Kind::change || (lowest_ && lowest_->s < first.before.s);
+    return touches && is_first ? FirstZero{FirstZero::Kind::touch, *lowest_, *lowest_} : first;
   }
 
  private:

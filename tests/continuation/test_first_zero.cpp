@@ -54,6 +54,19 @@ TEST_CASE("A jump between values of one sign is no zero, and is not looked into 
   }
 }
 
+TEST_CASE("A change of sign is found before a zero that is only touched behind it", "[zeros]") {
+  for (const double place : {0.05, 0.2, 0.31, 0.437, 0.499}) {
+    CAPTURE(place);
+    const Looked both = look([&](double s) {
+      const double way = s - 0.5;
+      return std::pair((s - place) * way * way, way * way + 2 * (s - place) * way);
+    });
+    CHECK(both.found.kind == FirstZero::Kind::change);
+    CHECK(both.found.before.s <= place);
+    CHECK(both.found.behind.s >= place);
+  }
+}
+
 TEST_CASE("Two zeros that lie near together are found beside a factor that fades", "[zeros]") {
   for (const double apart : {0.3, 0.03, 1e-3, 1e-5, 1e-7}) {
     for (const double rate : {0.0, 5.0, -5.0}) {
