@@ -13,6 +13,7 @@ constexpr double too_near = 1e-3;    // of the larger determinant at the ends: f
 constexpr double off_course = 0.05;  // of the way to its neighbours: a point is expected within
 constexpr double widest = 0.05;      // of the step: from how far a branch point is looked at
 constexpr int most_narrowings = 10;
+constexpr double rounding = 1e-12;  // of the determinant's slope at a branch point: what is left on the next
 constexpr double a_little_way = 1e-3;  // of the largest step: on it the determinant changes from that of a
 constexpr double much_less = 1e-5;     // branch point by much
 
@@ -80,6 +81,7 @@ bool CrossingSearch::search() {
   const std::optional<Node> from = at(0);
   const std::optional<Node> to = at(step_.distance);
   if (!from || !to) return false;
+  if (from_zero_ && std::abs(to->value) < rounding * std::abs(from->value)) return false;  // on another one
   const FirstZero found = first_zero(*from, *to, at, tolerances_.one_branch_point * step_.distance);
   if (found.kind == FirstZero::Kind::none) return true;
   return found.kind != FirstZero::Kind::unknown && locate(found.before, found.behind);

@@ -108,6 +108,31 @@ TEST_CASE("Special points down to 1e-6 apart are all located, each as what it is
   }
 }
 
+TEST_CASE("A double branch point and a simple one beside it are both found, in either order") {
+  TraceOptions options = over("p", -1, 1);
+  options.max_step = 0.05 * std::sqrt(5);  // of p by 0.1: some steps end on them, some have them midway
+  for (const double apart : {-0.1, -0.03, -0.003, 0.003, 0.01, 0.1}) {
+    for (const double at : {-0.3, -0.11, 0.0, 0.03, 0.24, 0.5}) {
+      for (const bool equilibrium : {false, true}) {
+        CAPTURE(apart, at, equilibrium);
+        PolynomialSystem system;
+        system.branch_points = {at, at, at + apart};
+        system.quadratic = {0, 0, 0};
+        system.equilibrium = equilibrium;
+        system.to_x = system.from_x = Matrix::Identity(4, 4);
+        system.sign = -1;
+        const Branch branch =
+            trace(system, {-Vector::Unit(4, 0), Vector::Constant(1, system.value(-1))}, options);
+        REQUIRE(branch.complete());
+        const auto found = of_type(branch, PointType::branch_point);
+        REQUIRE(found.size() == 2);
+        CHECK_THAT(found[0].parameters(0), WithinAbs(std::min(at, at + apart), 1e-8));
+        CHECK_THAT(found[1].parameters(0), WithinAbs(std::max(at, at + apart), 1e-8));
+      }
+    }
+  }
+}
+
 TEST_CASE("The fold next to the value that a branch is to land on is passed with the tangent kept") {
   for (int i = 1; i <= 8; ++i) {
     PolynomialSystem bend;
