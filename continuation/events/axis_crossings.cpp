@@ -46,22 +46,31 @@ class AxisSearch {
 
  private:
   /// As was counted, where the step begins on the axis; else the values themselves tell. On a branch point
-  /// one of them vanishes, as well as that is located.
-  Index unstable_at_start() const {
+  /// one of them vanishes, as well as that is located: which way it goes tells where it is ahead.
+  Index unstable_at_start() {
     const Index both = std::min(at_end_.size(), static_cast<Index>(here_.size()));
     double way = 0;
     for (Index i = 0; i < both; ++i)
       way = std::max(way, std::abs(at_end_(i).real() - here_[static_cast<std::size_t>(i)]));
-    double least = way;
     double near = std::max(step_.tolerances.rough * largest_, step_.tolerances.coincides * way);
-    if (std::isinf(step_.stepper.step().here.log_determinant)) {
+    const bool on_branch_point = std::isinf(step_.stepper.step().here.log_determinant);
+    if (on_branch_point) {
+      double least = way;
       for (const double rate : here_) least = std::min(least, std::abs(rate));
       near = std::max(near, 2 * least);
     }
     const auto above = [&](double bound) {
       return std::count_if(here_.begin(), here_.end(), [=](double rate) { return rate > bound; });
     };
-    return std::clamp<Index>(step_.signs.unstable, above(near), above(-near));
+    Index counted = step_.signs.unstable;
+    if (on_branch_point) {
+      counted = above(near);
+      for (Index i = counted; i < above(-near); ++i) {
+        const std::optional<Node> node = step_.readings.node(step_.readings.real_part(i), 0);
+        counted += static_cast<Index>(node && node->slope > 0);
+      }
+    }
+    return std::clamp<Index>(counted, above(near), above(-near));
   }
 
   bool may_cross(Index i, int sign) {

@@ -133,6 +133,26 @@ TEST_CASE("A double branch point and a simple one beside it are both found, in e
   }
 }
 
+TEST_CASE("Two branch points 1e-8 apart are passed, beyond which both eigenvalues are positive") {
+  for (const double apart : {1e-8, 2e-8, 3e-8, 1e-7}) {
+    CAPTURE(apart);
+    PolynomialSystem system;
+    system.branch_points = {0, apart};
+    system.quadratic = {0, 0};
+    system.equilibrium = true;
+    system.to_x = system.from_x = Matrix::Identity(3, 3);
+    system.sign = 1;
+    const Branch branch =
+        trace(system, {-Vector::Unit(3, 0), Vector::Constant(1, system.value(-1))}, over("p", -1, 1));
+    REQUIRE(branch.complete());
+    const auto found = of_type(branch, PointType::branch_point);
+    REQUIRE(found.size() == 2);
+    CHECK_THAT(found[0].parameters(0), WithinAbs(0, 1e-9));
+    CHECK_THAT(found[1].parameters(0), WithinAbs(apart, 1e-9));
+    CHECK(branch.points.back().unstable == branch.points.front().unstable + 2);
+  }
+}
+
 TEST_CASE("The fold next to the value that a branch is to land on is passed with the tangent kept") {
   for (int i = 1; i <= 8; ++i) {
     PolynomialSystem bend;
