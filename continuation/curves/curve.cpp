@@ -190,8 +190,10 @@ Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const Trace
 
   const TraceOptions all = bounded(problem, options, window, guess.unknowns, guess.regime);
   const TimeBudget time(all);
-  Branch curve = trace_parts([&] { return begin_half(problem, guess, true, all, observer); },
-                             [&] { return begin_half(problem, guess, false, time.rest(), observer); }, guess);
+  Branch curve = with_extrema_at_start(
+      problem, all,
+      trace_parts([&] { return begin_half(problem, guess, true, all, observer); },
+                  [&] { return begin_half(problem, guess, false, time.rest(), observer); }, guess));
   curve.work.evaluations += to_locate;
   return told(most_telling(std::move(curve)), window);
 }

@@ -54,14 +54,14 @@ void Tracer::start(const Guess& guess, double forward) {
   if (std::isinf(stepper_.here().log_determinant)) state_.signs.unstable = -1;
   state_.start = stepper_.here();
   store(PointType::start);
-  if (guess.direction.size() > 0) take_where_it_starts();
+  take_where_it_starts(guess.direction.size() > 0);
   const double same = options_.tolerances.same_value * parameter_scale();
   const double low = std::min(options_.from, options_.to);
   const double high = std::max(options_.from, options_.to);
   if (!(value() >= low - same && value() <= high + same))
     return stop(Stop::no_start, fmt::format("the start lies outside the range, at {}", place()));
-  const double rate = stepper_.parameter_slope(Hold::tangent);
-  if ((value() <= low + same && rate < 0) || (value() >= high - same && rate > 0))
+  const int way = state_.signs.parameter;  // from a fold the first step tells
+  if ((value() <= low + same && way < 0) || (value() >= high - same && way > 0))
     stop(Stop::left_range, fmt::format("the branch leaves the range where it starts, at {}", place()));
 }
 

@@ -9,10 +9,11 @@
 
 namespace arcslip::continuation {
 /// A start on a special point lies on a value but for rounding, and no step of that length can be made from
-/// it.
-void Tracer::take_where_it_starts() {
-  for (const Target* target : targets_.around(value(), options_.tolerances.on_target * parameter_scale()))
-    targets_.take(*target);
+/// it. On an end of the range no branch that starts there has come back to it.
+void Tracer::take_where_it_starts(bool is_special) {
+  for (const Target* target : targets_.around(value(), options_.tolerances.on_target * parameter_scale())) {
+    if (is_special || target->kind != Target::Kind::user) targets_.take(*target);
+  }
 }
 
 /// Of a step that was not brought to its end, so that it is tried again in the same way.

@@ -10,9 +10,18 @@ int sign_of_rate(const Stepper& stepper, double rate) {
   return std::abs(rate) < stepper.tolerances().no_rate ? 0 : sign_of(rate);
 }
 
-int sign_of_slope(const Stepper& stepper, std::size_t observable, const Monitor& monitor) {
+namespace {
+
+/// Of an observable's slope, 0 up to `least` of its size.
+int sign_of_slope(const Stepper& stepper, std::size_t observable, const Monitor& monitor, double least) {
   const double size = stepper.monitors().size_of(observable, monitor.value);
-  return std::abs(monitor.slope) <= 1e-14 * size ? 0 : sign_of(monitor.slope);
+  return std::abs(monitor.slope) <= least * size ? 0 : sign_of(monitor.slope);
+}
+
+}  // namespace
+
+int sign_of_slope(const Stepper& stepper, std::size_t observable, const Monitor& monitor) {
+  return sign_of_slope(stepper, observable, monitor, 1e-14);
 }
 
 Watch::Watch(const Problem& problem, const std::vector<UserEvent>& events)
@@ -114,7 +123,8 @@ Signs signs_at_start(const Stepper& stepper, const Watch& watch) {
   Signs signs;
   signs.parameter = sign_of_rate(stepper, stepper.parameter_slope(Hold::tangent));
   for (std::size_t i = 0; i < static_cast<std::size_t>(stepper.monitors().tracked_count()); ++i)
-    signs.observables.push_back(sign_of_slope(stepper, i, stepper.at_here()[i]));
+    signs.observables.push_back(
+        sign_of_slope(stepper, i, stepper.at_here()[i], stepper.tolerances().no_rate));
   for (const double value : watch.functions()) signs.functions.push_back(sign_of(value));
   signs.unstable = watch.unstable();
   return signs;

@@ -129,6 +129,34 @@ TEST_CASE("A curve ends on the edge of its window in the active parameter") {
   CHECK(of_type(curve, PointType::cusp).size() == 1);
 }
 
+TEST_CASE("A curve may start on an extremum of the active parameter, and on the edge of its range") {
+  const ScalarProblem problem{
+      {"p", "q"},
+      [](double u, const Vector& p) { return p(0) - std::pow(p(1) - 0.3, 2) + u * u; },
+      [](double u, const Vector&) { return 2 * u; },
+      {[](double, const Vector&) { return 1.0; }, [](double, const Vector& p) { return 0.6 - 2 * p(1); }}};
+  const auto traced = [&](double from, double at) {
+    FoldProblem folds(problem, 0);  // at p = (q - 0.3)^2
+    TraceOptions options = over("q", from, 1);
+    options.extrema_of = {"p"};
+    return trace_curve(folds, {vector_of({0}), vector_of({0, at}), 0, {}}, options);
+  };
+  const double beside = 0.3 - 5e-14;
+  const Branch from_edge = traced(beside, beside);
+  CHECK(from_edge.complete());
+  CHECK(from_edge.points.front().type == PointType::start);
+  CHECK(from_edge.points.back().parameters(0) == 1);
+  CHECK(of_type(from_edge, PointType::trough).empty());
+
+  const Branch across = traced(-1, 0.3);
+  CHECK(across.complete());
+  CHECK(across.points.front().parameters(0) == -1);
+  const auto troughs = of_type(across, PointType::trough);
+  REQUIRE(troughs.size() == 1);
+  CHECK(troughs[0].parameters(0) == 0.3);
+  CHECK(of_type(across, PointType::peak).empty());
+}
+
 TEST_CASE("Folds and Hopf points of the Bogdanov-Takens normal form meet where they must") {
   const BogdanovTakens problem;
   const Branch branch = trace(problem, {vector_of({-0.8, 0}), vector_of({-1, -1})}, over("b1", -1, 1));

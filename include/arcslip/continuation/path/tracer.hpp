@@ -54,7 +54,7 @@ class Tracer {
   void step();
   bool try_step();
   double longest_step() const;
-  void take_where_it_starts();
+  void take_where_it_starts(bool is_special);
   bool try_landing();
   const Target* next_target(double reach, double direction) const;
   bool only_approaches(const Target& target) const;
