@@ -12,6 +12,7 @@
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/continuation/points/fold_problem.hpp"
 #include "arcslip/continuation/points/hopf_problem.hpp"
+#include "arcslip/continuation/points/normal_form.hpp"
 
 namespace arcslip {
 namespace {
@@ -126,6 +127,26 @@ TracedBranch unstarted(const Request& request, const Subject& subject, const std
 
 namespace {
 
+/// Moves a start on a special point beside it, so that this is passed as others are: of Hopf points to the
+/// side where they are ones.
+void put_beside(ExtendedProblem& problem, Index second, const continuation::TraceOptions& options,
+                BasePoint& at) {
+  constexpr double beside = 1e-3;
+  const double middle = 0.5 * (options.from + options.to);
+  const double inwards = at.parameters(second) < middle ? 1 : -1;
+  for (const double way : {inwards, -inwards}) {
+    BasePoint there = at;
+    there.parameters(second) += way * beside * std::abs(options.to - options.from);
+    const auto located = continuation::locate(problem, there, options.tolerance);
+    if (!located) continue;
+    if (dynamic_cast<const continuation::HopfProblem*>(&problem) != nullptr &&
+        !(located->point.extras(0) > 0))
+      continue;
+    at = located->point;
+    return;
+  }
+}
+
 /// Adds the curves that these meet, and so on.
 void follow_meeting(const Request& request, continuation::TraceOptions options, const TimeBudget& time,
                     const continuation::Observer& observer, std::vector<TracedBranch>& curves) {
@@ -138,16 +159,12 @@ void follow_meeting(const Request& request, continuation::TraceOptions options, 
       const std::shared_ptr<ExtendedProblem> problem = std::move(start.problem);
       const auto known = [&](const TracedBranch& curve) { return is_known(curve, *problem, start.point); };
       if (std::any_of(curves.begin(), curves.end(), known)) continue;
-      double& value = start.point.parameters(
-          continuation::index_of(curves[i].base.problem->parameter_names(), options.parameter));
+      const Index second =
+          continuation::index_of(curves[i].base.problem->parameter_names(), options.parameter);
       if (curves.size() >= options.max_branches)
         return curves.back().branch.warn(
-            continuation::more_branches(curves.size(), options.parameter, value));
-      if (point.type != PointType::bogdanov_takens) {  // beside the point, which is then passed as others are
-        constexpr double beside = 1e-3;
-        const double middle = 0.5 * (options.from + options.to);
-        value += beside * (value < middle ? 1 : -1) * std::abs(options.to - options.from);
-      }
+            continuation::more_branches(curves.size(), options.parameter, start.point.parameters(second)));
+      put_beside(*problem, second, options, start.point);
       const Clock::time_point begun = Clock::now();
       options.max_seconds = time.rest().max_seconds;
       TracedBranch met{

@@ -276,3 +276,42 @@ TEST_CASE("Cycles with a last predator leave those without it where AUTO-07p has
     CHECK_THAT(a * b, WithinRel(xx * yz * zy, 5e-3));
   }
 }
+
+TEST_CASE(
+    "A curve of Hopf points is followed from one Bogdanov-Takens point of a curve of folds to the next") {
+  const std::string reactor = R"case(
+[model.parameters]
+p3 = 500
+p4 = 210
+[model.definitions]
+R = "y/(3.4 + y)*x/(1 + x + 0.023*x^2)"
+[model.equations]
+x = "-3*(p4*R - (145 - x))"
+y = "-3*(p4*R - 0.2*(p3 - y))"
+[model.start]
+x = 62.7662
+y = 88.8308
+[branch]
+curve = "fold"
+parameters = ["p3", "p4"]
+window = [500, 800]
+from = 50
+to = 400
+switching = true
+)case";
+  for (const std::string step : {"0.03", "0.1", "0.3"}) {
+    const auto all = traced_of(reactor, {"continuation.max_step=" + step});
+    REQUIRE(all.size() == 2);
+    for (const TracedBranch& one : all) {
+      const std::vector<BranchPoint> ends = points(one, PointType::bogdanov_takens);
+      REQUIRE(ends.size() == 2);
+      CHECK_THAT(value(one, ends[0], "p3"), WithinRel(617.276106, 1e-8));
+      CHECK_THAT(value(one, ends[1], "p3"), WithinRel(771.052613, 1e-8));
+    }
+    CHECK(all[1].branch.points.front().type == PointType::bogdanov_takens);
+    CHECK(all[1].branch.points.back().type == PointType::bogdanov_takens);
+    const std::vector<BranchPoint> turns = points(all[1], PointType::fold);
+    REQUIRE(turns.size() == 1);
+    CHECK_THAT(value(all[1], turns[0], "p4"), WithinRel(216.362307, 1e-8));
+  }
+}
