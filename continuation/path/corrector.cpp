@@ -242,8 +242,10 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
       length = solve_correction(gap());
     }
     if (!std::isfinite(length)) return Correction::singular;
-    // A ratio of two roundings does not count, unless it is too small to shorten a step.
-    const auto counts = [&](double ratio) { return ratio < 0.01 || last_residual > rounding_level(point); };
+    // A ratio to or of what rounding leaves does not count, unless it is too small to shorten a step.
+    const auto counts = [&](double ratio) {
+      return ratio < 0.01 || std::min(last_residual, point.residual) > rounding_level(point);
+    };
     if (point.iterations == 1 && !held && !went_on && counts(length / last_length))
       contraction_ = length / last_length;
     if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded &&
