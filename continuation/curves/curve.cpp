@@ -40,7 +40,8 @@ TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options
   TraceOptions all = within_window(options, window, problem.base().size());
   for (const PointType last : problem.last_of_curve()) all.stop_after.push_back({last, 1, {}});
   if (const auto* orbits = dynamic_cast<const OrbitProblem*>(&problem.base()))
-    end_with_kind(*orbits, all, orbits->apart(unknowns, regime));
+    end_with_kind(*orbits, all, orbits->apart(unknowns, regime),
+                  dynamic_cast<const FoldProblem*>(&problem) != nullptr);
   return all;
 }
 

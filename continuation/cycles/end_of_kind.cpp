@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace arcslip::continuation {
 namespace {
@@ -11,13 +12,20 @@ constexpr const char* end_of_kind_name = "end of a kind of orbits";
 
 }  // namespace
 
-void end_with_kind(const OrbitProblem& orbits, TraceOptions& options, double begins) {
+void end_with_kind(const OrbitProblem& orbits, TraceOptions& options, double begins, bool of_folds) {
   if (orbits.end_of_kind().empty()) return;
+  const double most = std::max(1.0, begins);
   // Of what there was: nearer to it orbits are hard to tell from others.
-  const double nothing = 1e-3 * std::max(1.0, begins);
+  constexpr double nothing = 1e-3;
+  // Growth rates of cycles of size r, and rounding in them, go with r^2, and so does the way of a fold.
+  constexpr double placed = 1e-3;  // of that way: by how much rounding may move a fold
+  const auto least = [=, &orbits](const Vector& u, const Regime& regime) {
+    const double rounding = of_folds ? orbits.rounding_apart(u, regime) : 0;
+    return std::max(nothing, std::pow(rounding / placed, 0.25));
+  };
   options.events.push_back(
-      {end_of_kind_name, [&orbits, nothing](const Vector& u, const Vector& /*p*/, const Regime& regime) {
-         return orbits.apart(u, regime) - nothing;
+      {end_of_kind_name, [=, &orbits](const Vector& u, const Vector& /*p*/, const Regime& regime) {
+         return orbits.apart(u, regime) - most * least(u, regime);
        }});
   options.stop_after.push_back({PointType::event, 1, end_of_kind_name});
 }

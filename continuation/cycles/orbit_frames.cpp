@@ -114,6 +114,12 @@ double OrbitProblem::apart(const Vector& u, const Regime& regime) const {
   return (at.apart.dot(u.head(at.apart.size())) - at.apart_of_turns) / at.most_apart;
 }
 
+double OrbitProblem::rounding_apart(const Vector& u, const Regime& regime) const {
+  const OrbitFrame& at = frame(regime);
+  const double size = (at.in_units.asDiagonal() * orbit(u)).cwiseAbs().maxCoeff();
+  return std::numeric_limits<double>::epsilon() * size / (std::abs(apart(u, regime)) * at.most_apart);
+}
+
 std::string OrbitProblem::describe(const Regime& regime) const {
   return fmt::format("mesh {}", digits(regime));
 }

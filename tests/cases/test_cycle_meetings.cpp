@@ -217,6 +217,43 @@ to = 2
       meetings, "mu", "nu", [](double mu) { return -mu; }, 1e-8);
 }
 
+TEST_CASE("Curves of folds end at generalised Hopf points, aside from zero, on any mesh", "[cycles]") {
+  const std::string oscillator = R"case(
+[model.parameters]
+p1 = 0.5
+p2 = 4
+p3 = 0.5
+p4 = 2
+[model.equations]
+x = "(-p4*(x^3/3 - x) + (z - x)/p2 - y)/p1"
+y = "x - p3"
+z = "-(z - x)/p2"
+[model.start]
+x = "p3"
+y = "-p4*(p3^3/3 - p3)"
+z = "p3"
+[branch]
+curve = "cycle_fold"
+parameters = ["p3", "p2"]
+window = [0.85, 0.95]
+from = 1
+to = 4.5
+)case";
+  for (const std::string tolerance : {"1e-4", "1e-6", "1e-8"}) {
+    const auto all = traced_of(oscillator, {"cycles.tolerance=" + tolerance});
+    REQUIRE(all.size() == 2);
+    const continuation::Branch& ended = all[0].branch;
+    CHECK(ended.first_stop == Stop::left_regime);
+    CHECK(ended.complete());
+    CHECK(ended.points.size() < 100);
+    CHECK_THAT(value(all[0], ended.points.front(), "p2"), WithinAbs(1.530963, 5e-5));
+    CHECK_THAT(value(all[0], ended.points.front(), "p3"), WithinAbs(0.867048, 5e-6));
+    for (const BranchPoint& point : ended.points)
+      CHECK((point.type == PointType::regular || point.type == PointType::start ||
+             point.type == PointType::end));
+  }
+}
+
 TEST_CASE("Curves of tori's births end on double Hopf points", "[cycles]") {
   const auto births = traced_of(R"case(
 [model.parameters]

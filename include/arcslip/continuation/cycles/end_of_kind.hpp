@@ -9,8 +9,9 @@
 namespace arcslip::continuation {
 
 /// Ends branches of these orbits by an event, or curves of them, whose first unknowns are the orbits': as far
-/// `apart` as `begins` they begin.
-void end_with_kind(const OrbitProblem& orbits, TraceOptions& options, double begins = 1);
+/// `apart` as `begins` they begin. Those of folds may end earlier.
+void end_with_kind(const OrbitProblem& orbits, TraceOptions& options, double begins = 1,
+                   bool of_folds = false);
 
 /// Says so of a branch of `traced`, or of a curve, that has ended for it: whether it has.
 bool tell_end_of_kind(const OrbitProblem& orbits, const Problem& traced, const std::string& parameter,

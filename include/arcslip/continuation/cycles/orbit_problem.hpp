@@ -123,6 +123,8 @@ class OrbitProblem : public Problem {
   /// How much there is of what keeps an orbit apart from those of a simpler kind, over the most that there
   /// was: 0 where it is one of these, below 0 beyond; 1 where nothing does.
   double apart(const Vector& u, const Regime& regime) const;
+  /// The rounding of the unknowns, relative to that part.
+  double rounding_apart(const Vector& u, const Regime& regime) const;
 
   /// du(s_(j+1))/du(s_j) of each interval, n x n, by the Jacobian at an orbit of a field that is not sparse.
   std::vector<Matrix> transfers(const FactoredJacobian& jacobian) const;
