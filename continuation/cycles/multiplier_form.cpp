@@ -1,6 +1,7 @@
 #include "arcslip/continuation/cycles/multiplier_form.hpp"
 
 #include <Eigen/SparseLU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -166,13 +167,22 @@ Matrix curve_of(const Guess& point, const ComplexVector& along, Index order) {
 class Reduction {
  public:
   Reduction(const Rounds& rounds, Complex multiplier) : rounds_(rounds), steady_(rounds.matrix(1, true)) {
-    const NullVectors found = null_vectors(rounds.matrix(multiplier, false));
+    const ComplexSparse matrix = rounds.matrix(multiplier, false);
+    const NullVectors found = null_vectors(matrix);
     v_ = found.right / rounds.length(found.right);
     psi_ = found.left;
     if (multiplier.imag() == 0) v_ /= largest_entry(v_) / std::abs(largest_entry(v_));
     weight_ = multiplier * psi_.dot(rounds.turned(v_));
-    if (multiplier.imag() != 0) twice_.emplace(rounds.matrix(multiplier * multiplier, false));
+    if (multiplier.imag() == 0) return;
+    twice_.emplace(rounds.matrix(multiplier * multiplier, false));
+    // By how much the problem's multiplier is another one, over how far that is surely from a cube root of 1.
+    constexpr double surely = 10;
+    const double missed = std::max(std::abs(psi_.dot(ComplexVector(matrix * v_)) / weight_), rounding_);
+    rounding_ = missed / std::max(std::abs(std::pow(multiplier, 3) - 1.0) - surely * missed, 0.0);
   }
+
+  /// Of the coefficient, relative to its terms.
+  double rounding() const { return rounding_; }
 
   /// c T, and the size of its terms
   bool real(Expansion& expansion, Vector& found) const {
@@ -232,6 +242,7 @@ class Reduction {
   ComplexVector v_;
   ComplexVector psi_;
   Complex weight_;
+  double rounding_ = std::numeric_limits<double>::epsilon();
 };
 
 /// b T: of the whole matrix, in which T changes with w as well.
@@ -298,8 +309,9 @@ std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType 
   Vector parameter_scale(at.parameters.size());
   problem.scale(at.unknowns, at.parameters, scale, parameter_scale);
   const double usual = 1 / (scale.head(rounds.count()).cwiseAbs2().maxCoeff() * rounds.duration());
-  return MultiplierForm{numbers(0) / rounds.duration(), found.error / rounds.duration(),
-                        (numbers(1) + usual) / rounds.duration()};
+  const double terms = (numbers(1) + usual) / rounds.duration();
+  return MultiplierForm{numbers(0) / rounds.duration(), found.error / rounds.duration(), terms,
+                        reduction ? reduction->rounding() * terms : 0};
 }
 
 std::optional<TurningVector> turning_vector(const CycleProblem& cycles, const Guess& at) {

@@ -15,14 +15,15 @@ struct Known {
 };
 
 /// As far as a function is known that has a value where the step begins: to its end, or to its first event. A
-/// determinant that has no value at either is rounding before; others are read a little before the event, as
-/// it may be where a curve ends.
+/// determinant that has no value at either is rounding before; others are read a little before an event where
+/// they have no value or no sign, as it may be where a curve ends or where their terms have poles.
 std::optional<Known> known_by(StepSearch& step, std::size_t which, double end, bool is_determinant) {
   if ((step.is_whole() || is_determinant) && !std::isfinite(end)) return std::nullopt;
   if (step.is_whole()) return Known{step.upper(), end};
   for (const double left : {0.0, 1e-3, 1e-2, 1e-1}) {
     const double s = (1 - left) * step.upper();
-    if (const std::optional<double> value = step.readings.value(which, s)) return Known{s, *value};
+    const std::optional<double> value = step.readings.value(which, s);
+    if (value && (*value != 0 || is_determinant)) return Known{s, *value};
     if (is_determinant) break;
   }
   return std::nullopt;

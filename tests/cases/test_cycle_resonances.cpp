@@ -139,6 +139,42 @@ to = 3
   check_values(at(all, PointType::resonance_1_4, "q"), {0}, 1e-8);
 }
 
+TEST_CASE("No Chenciner point is told where the coefficient vanishes or cancels but for rounding",
+          "[cycles]") {
+  // The generalised Henon map: det = beta + R x = 1 and the trace (R - 2) x. At R = 0 it keeps areas there.
+  const auto curve_at = [](const std::string& R) {
+    return traced_of(R"case(
+[model]
+kind = "map"
+[model.parameters]
+alpha = 2
+beta = 0.5
+R = 0
+[model.equations]
+x = "y"
+y = "alpha - beta*x - y^2 + R*x*y"
+[model.start]
+x = 1
+y = 1
+[branch]
+curve = "neimark_sacker"
+parameters = ["beta", "alpha"]
+window = [0.5, 2.5]
+from = -1.5
+to = 4
+)case",
+                     {"model.parameters.R=" + R});
+  };
+  const auto bent = curve_at("-0.1");
+  REQUIRE(bent.size() == 1);
+  check_values(at(bent, PointType::resonance_1_3, "beta"), {20.0 / 21}, 1e-9);
+  CHECK(at(bent, PointType::chenciner, "beta").empty());
+  const auto kept = curve_at("0");
+  REQUIRE(kept.size() == 1);
+  check_values(at(kept, PointType::resonance_1_3, "alpha"), {1.25}, 1e-9);
+  CHECK(at(kept, PointType::chenciner, "alpha").empty());
+}
+
 TEST_CASE("Curves of maps have the same points as those of cycles", "[cycles]") {
   const auto turns = traced_of(torus_map + "parameters = [\"p\", \"w\"]\nfrom = 0.2\nto = 3.1\n");
   REQUIRE(turns.size() == 1);

@@ -30,12 +30,13 @@ struct MultiplierForm {
   double coefficient = 0;  ///< c, Re d, or |b|, whose sign is that of v
   double error = 0;        ///< estimated; 0 where derivatives are exact
   double terms = 0;        ///< the sum of the sizes of what makes up c or d, and what is usual
+  double rounding = 0;     ///< of the coefficient: terms cancel where mu^3 is nearly 1
 
   /// The coefficient over its terms; 0 where it is no more than its error may be, as all along a curve of
   /// what is linear.
   double relative() const {
     constexpr double surely = 10;
-    return std::abs(coefficient) > surely * error ? coefficient / terms : 0;
+    return std::abs(coefficient) > surely * (error + rounding) ? coefficient / terms : 0;
   }
 };
 
