@@ -3,10 +3,29 @@
 #include <cmath>
 
 #include "arcslip/continuation/linear/borders.hpp"
+#include "arcslip/continuation/points/branch_point_problem.hpp"
 #include "arcslip/continuation/points/fold_problem.hpp"
 #include "arcslip/continuation/points/hopf_problem.hpp"
+#include "arcslip/continuation/points/normal_form.hpp"
 
 namespace arcslip::continuation {
+
+namespace {
+
+/// Whether a point is a branch point that needs no perturbation, as a symmetry keeps them: along a curve of
+/// these the equations of folds are singular.
+bool is_kept_branch_point(const ExtendedProblem& curve, const BasePoint& at) {
+  BranchPointProblem branch_points(curve.base(), curve.active());
+  BasePoint start = at;
+  start.extras = Vector::Zero(1);
+  const auto located = locate(branch_points, start);
+  constexpr double there = 1e-6;  // far above what points are located to
+  const double parameter = at.parameters(curve.active());
+  return located && std::abs(located->point.extras(0)) <= there &&
+         std::abs(located->point.parameters(curve.active()) - parameter) <= there * (1 + std::abs(parameter));
+}
+
+}  // namespace
 
 CurveStart curve_meeting(const ExtendedProblem& curve, const BranchPoint& point) {
   const BasePoint at = curve.split(point.unknowns, point.parameters, point.regime);
@@ -15,7 +34,12 @@ CurveStart curve_meeting(const ExtendedProblem& curve, const BranchPoint& point)
   const bool is_of_folds = dynamic_cast<const FoldProblem*>(&curve) != nullptr;
   const bool meets_folds = point.type == PointType::bogdanov_takens || point.type == PointType::zero_hopf;
   if (is_of_hopf && meets_folds) {
-    start.problem = std::make_unique<FoldProblem>(curve.base(), curve.active());
+    if (is_kept_branch_point(curve, at)) {
+      start.problem = std::make_unique<BranchPointProblem>(curve.base(), curve.active());
+      start.point.extras = Vector::Zero(1);
+    } else {
+      start.problem = std::make_unique<FoldProblem>(curve.base(), curve.active());
+    }
     return start;
   }
   const bool meets_hopf = meets_folds ? is_of_folds : is_of_hopf && point.type == PointType::hopf_hopf;

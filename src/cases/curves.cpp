@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <typeinfo>
 
 #include "arcslip/continuation/curves/meeting_curves.hpp"
 #include "arcslip/continuation/cycles/orbit_problem.hpp"
 #include "arcslip/continuation/path/switching.hpp"
-#include "arcslip/continuation/points/fold_problem.hpp"
 #include "arcslip/continuation/points/hopf_problem.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 
@@ -21,7 +21,6 @@ using continuation::BasePoint;
 using continuation::Branch;
 using continuation::BranchPoint;
 using continuation::ExtendedProblem;
-using continuation::FoldProblem;
 using continuation::PointType;
 using continuation::TimeBudget;
 using Clock = std::chrono::steady_clock;
@@ -90,10 +89,10 @@ bool is_seed(const CurveRequest& asked, const continuation::Problem& problem, co
   return !asked.is_backbone() || (above(*(&point - 1)) < 0) == (asked.from < asked.to);
 }
 
-/// Whether a curve is of folds or of Hopf points like another, and passes a point of the base.
+/// Whether a curve is of points of the same kind as another, and passes a point of the base.
 bool is_known(const TracedBranch& curve, const ExtendedProblem& kind, const BasePoint& at) {
-  const bool same_kind = (dynamic_cast<const FoldProblem*>(curve.curve.get()) != nullptr) ==
-                         (dynamic_cast<const FoldProblem*>(&kind) != nullptr);
+  const ExtendedProblem& own = *curve.curve;
+  const bool same_kind = typeid(own) == typeid(kind);
   return same_kind &&
          std::any_of(curve.branch.points.begin(), curve.branch.points.end(), [&](const BranchPoint& point) {
            const BasePoint here = curve.curve->split(point.unknowns, point.parameters, point.regime);

@@ -352,3 +352,43 @@ switching = true
     CHECK_THAT(value(all[1], turns[0], "p4"), WithinRel(216.362307, 1e-8));
   }
 }
+
+TEST_CASE("From a Bogdanov-Takens point that a symmetry keeps leads a curve of branch points") {
+  // x = y = z = 0 is singular where be + nu = 0, and has a double eigenvalue 0 there where be^2 = r.
+  const std::string circuit = R"case(
+[model.parameters]
+nu = -0.721309
+be = 0.6
+r = 0.6
+a3 = 0.328578
+b3 = 0.933578
+[model.equations]
+x = "(-(be + nu)*x + be*y - a3*x^3 + b3*(y - x)^3)/r"
+y = "be*x - be*y - z - b3*(y - x)^3"
+z = "y"
+[model.start]
+x = 0.2
+z = 0.15
+[branch]
+curve = "hopf"
+parameters = ["nu", "be"]
+window = [-0.62, -1.4]
+from = 0.2
+to = 1.5
+switching = true
+)case";
+  for (const std::string step : {"0.03", "0.1", "0.3"}) {
+    const auto all = traced_of(circuit, {"continuation.max_step=" + step});
+    REQUIRE(all.size() == 2);
+    const std::vector<BranchPoint> meeting = points(all[0], PointType::bogdanov_takens);
+    REQUIRE(meeting.size() == 1);
+    CHECK_THAT(value(all[0], meeting[0], "be"), WithinRel(std::sqrt(0.6), 1e-9));
+    CHECK_THAT(value(all[1], all[1].branch.points.front(), "nu"), WithinAbs(-0.62, 1e-9));
+    CHECK_THAT(value(all[1], all[1].branch.points.back(), "nu"), WithinAbs(-1.4, 1e-9));
+    for (const BranchPoint& point : all[1].branch.points) {
+      CHECK_THAT(value(all[1], point, "be"), WithinAbs(-value(all[1], point, "nu"), 1e-9));
+      CHECK((point.type == PointType::regular || point.type == PointType::start ||
+             point.type == PointType::end));
+    }
+  }
+}

@@ -1,8 +1,9 @@
 #pragma once
 
 // Curves of folds and of Hopf points from where they meet: at Bogdanov-Takens and zero-Hopf points each
-// other, at double Hopf points two of the latter [Yu. A. Kuznetsov, Elements of Applied Bifurcation Theory,
-// 3rd ed., Springer 2004, chapter 8].
+// other, at double Hopf points two of the latter; where a symmetry keeps the solution, curves of branch
+// points take the place of those of folds [Yu. A. Kuznetsov, Elements of Applied Bifurcation Theory, 3rd ed.,
+// Springer 2004, chapter 8].
 
 #include "arcslip/continuation/curves/curve.hpp"
 
