@@ -63,7 +63,8 @@ class MeshWatch {
     if (point.type == PointType::branch_point) singular_ = point.arclength;
     if (point.arclength == singular_) return true;
     return problem_.mesh_error(point.unknowns, point.regime) <= options_.tolerance &&
-           problem_.phase_grip(point.unknowns, point.regime) > grip;
+           problem_.phase_grip(point.unknowns, point.regime) > grip &&
+           problem_.apart_grip(point.unknowns, point.regime) > grip;
   }
 
   /// Whether a new frame can wait for one more point: signs that are all rounding would put it off for ever.
@@ -229,7 +230,8 @@ Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& 
   const TimeBudget time(options);
   const Observer watching = [&](const BranchPoint& point) {
     told = observer && !observer(point);
-    worn = !meshes.serves(point);
+    problem.note_apart(point.unknowns, point.regime);
+    worn = point.type != PointType::event && !meshes.serves(point);  // one of these may be the end
     grows = !growth.goes_on(point);
     rests = !options.branch_point_pairs && is_at_rest(problem, point);
     return !told && !worn && !grows && !rests;

@@ -82,7 +82,7 @@ class OrbitNetwork {
       }
     }
     if (!traced.branch.points.empty()) {
-      keep_end(*traced.problem, traced.branch.points.front());
+      if (traced.branch.first_stop) keep_end(*traced.problem, traced.branch.points.front());
       keep_end(*traced.problem, traced.branch.points.back());
     }
     found_.push_back(std::move(traced));
@@ -93,8 +93,8 @@ class OrbitNetwork {
     constexpr double nothing = 2e-3;  // of what keeps them apart: branches end at half of it
     const auto* orbits = dynamic_cast<const PeriodicOrbit*>(&problem);
     if (orbits == nullptr || !(std::abs(problem.apart(end.unknowns, end.regime)) < nothing)) return;
-    ends_.push_back(
-        {end.parameters, orbits->period(end.unknowns, end.parameters) / (orbits->is_doubled() ? 2 : 1)});
+    const int rounds = orbits->is_two_rounds(end.unknowns, end.regime) ? 2 : 1;
+    ends_.push_back({end.parameters, orbits->period(end.unknowns, end.parameters) / rounds});
   }
 
   std::vector<OrbitStart> starts_at(const Waiting& from) const {

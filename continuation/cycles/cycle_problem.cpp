@@ -8,10 +8,8 @@
 namespace arcslip::continuation {
 
 CycleProblem::CycleProblem(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
-                           const Vector& p, int periods, bool doubled)
-    : PeriodicOrbit(field, !field->is_periodic(), doubled),
-      periods_(periods),
-      winding_(Vector::Zero(orbit.rows())) {
+                           const Vector& p, int periods)
+    : PeriodicOrbit(field, !field->is_periodic()), periods_(periods), winding_(Vector::Zero(orbit.rows())) {
   for (Index i = 0; i < orbit.rows(); ++i) {
     if (const double turn = field->turn(i); turn > 0)
       winding_(i) = turn * std::round((orbit(i, orbit.cols() - 1) - orbit(i, 0)) / turn);
@@ -19,35 +17,23 @@ CycleProblem::CycleProblem(std::shared_ptr<const Field> field, const OrbitMesh& 
   begin(mesh, orbit, p);
 }
 
-std::string CycleProblem::end_of_kind() const {
-  return is_doubled() ? PeriodicOrbit::end_of_kind() : "the cycle shrinks onto an equilibrium";
-}
-
-/// What it is beside its mean or, of a doubled one, half of what tells both of its rounds apart.
+/// What its halves differ by, halved: of this nothing is left at an equilibrium, either.
 Matrix CycleProblem::part_apart(const OrbitMesh& mesh, const Matrix& orbit) const {
-  if (!is_doubled() && !has_duration()) return {};
+  if (!has_duration() && periods_ % 2 != 0) return {};
   const CollocationRule& rule = mesh.rule();
   const Index m = rule.degree();
   Matrix part(orbit.rows(), m * mesh.intervals());
-  Vector mean = Vector::Zero(orbit.rows());
   Vector here;
   Vector there;
   for (Index j = 0; j < mesh.intervals(); ++j) {
     for (Index i = 0; i < m; ++i) {
       const double s = mesh.borders()(j) + mesh.length(j) * rule.points()(i);
       mesh.at(orbit, s, here, nullptr);
-      here -= s * winding_;
-      if (is_doubled()) {
-        const double other = s < 0.5 ? s + 0.5 : s - 0.5;
-        mesh.at(orbit, other, there, nullptr);
-        here = 0.5 * (here - there + other * winding_);
-      } else {
-        mean += rule.weights()(i) * mesh.length(j) * here;
-      }
-      part.col(j * m + i) = here;
+      const double other = s < 0.5 ? s + 0.5 : s - 0.5;
+      mesh.at(orbit, other, there, nullptr);
+      part.col(j * m + i) = 0.5 * (here - there + (other - s) * winding_);
     }
   }
-  part.colwise() -= mean;
   return part;
 }
 
@@ -59,7 +45,7 @@ std::shared_ptr<CycleProblem> CycleProblem::on_intervals(const Vector& u, const 
   unknowns.resize(carried.size() + (has_duration() ? 1 : 0));
   unknowns.head(carried.size()) = carried.reshaped();
   if (has_duration()) unknowns.tail(1) = u.tail(1);
-  return std::make_shared<CycleProblem>(shared_field(), mesh, carried, p, periods_, is_doubled());
+  return std::make_shared<CycleProblem>(shared_field(), mesh, carried, p, periods_);
 }
 
 OrbitMesh CycleProblem::mesh_of_two(const OrbitMesh& once) const {

@@ -51,8 +51,8 @@ CycleStart small_cycle(const std::shared_ptr<const Field>& field, const Guess& h
 }  // namespace
 
 CycleStart cycle_from_orbit(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
-                            double duration, const Vector& p, int periods, bool doubled) {
-  const auto problem = std::make_shared<CycleProblem>(std::move(field), mesh, orbit, p, periods, doubled);
+                            double duration, const Vector& p, int periods) {
+  const auto problem = std::make_shared<CycleProblem>(std::move(field), mesh, orbit, p, periods);
   return {problem, start_from(problem, orbit, duration, p).guess};
 }
 

@@ -13,7 +13,7 @@ constexpr const char* end_of_kind_name = "end of a kind of orbits";
 }  // namespace
 
 void end_with_kind(const OrbitProblem& orbits, TraceOptions& options, double begins, bool of_folds) {
-  if (orbits.end_of_kind().empty()) return;
+  if (orbits.frame({}).apart.size() == 0) return;
   const double most = std::max(1.0, begins);
   // Of what there was: nearer to it orbits are hard to tell from others.
   constexpr double nothing = 1e-3;
@@ -37,8 +37,8 @@ bool tell_end_of_kind(const OrbitProblem& orbits, const Problem& traced, const s
   last.type = PointType::end;
   last.label.clear();
   branch.stop = Stop::left_regime;
-  branch.explanation = fmt::format("{}, at {} = {:.10g}", orbits.end_of_kind(), parameter,
-                                   last.parameters(index_of(traced.parameter_names(), parameter)));
+  branch.explanation = fmt::format("{}, at {} = {:.10g}", orbits.end_of_kind(last.unknowns, last.regime),
+                                   parameter, last.parameters(index_of(traced.parameter_names(), parameter)));
   branch.checkpoint.reset();
   return true;
 }

@@ -38,6 +38,19 @@ Vector phase_weights(const OrbitMesh& mesh, const Eigen::Ref<const Matrix>& orbi
   return weights / square;
 }
 
+/// The integral of (a/scale) . (b/scale), values at the Gauss points of the frame's mesh.
+double product(const OrbitFrame& frame, const Matrix& a, const Matrix& b) {
+  const Vector& weights = frame.mesh.rule().weights();
+  double sum = 0;
+  for (Index k = 0; k < a.cols(); ++k) {
+    const double weight = weights(k % weights.size()) * frame.mesh.length(k / weights.size());
+    sum += weight * a.col(k).cwiseProduct(frame.in_units).dot(b.col(k).cwiseProduct(frame.in_units));
+  }
+  return sum;
+}
+
+double length(const OrbitFrame& frame, const Matrix& a) { return std::sqrt(product(frame, a, a)); }
+
 }  // namespace
 
 CollocationRule rule_for(const Field& field, int degree) {
@@ -60,15 +73,17 @@ Regime OrbitProblem::last_frame() const {
 }
 
 Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const Vector& p) {
+  constexpr double hardly = 1e-4;  // of how far the unknowns go: what keeps an orbit apart is more
   Vector scale(orbit.rows());
   Vector unused(p.size());
   field_->scale(orbit.cwiseAbs().rowwise().maxCoeff(), p, scale, unused);
-  OrbitFrame frame{mesh, scale, scale.cwiseInverse(), {}, ranges(orbit, scale), {}, {}};
+  OrbitFrame frame{mesh, scale, scale.cwiseInverse(), {}, ranges(orbit, scale), {}};
   frame.ends = end_scale(frame, orbit, p);
   if (has_duration_) frame.phase = phase_weights(mesh, orbit, scale);
   if (has_duration_) frame.phase_value = frame.phase.dot(orbit.reshaped());
-  set_apart(frame, part_apart(mesh, orbit), orbit);
-  if (!frames_.empty()) frame.most_apart = std::max(frame.most_apart, frames_.back()->most_apart);
+  frame.apart = part_apart(mesh, orbit);
+  most_apart_ = std::max(most_apart_, length(frame, frame.apart));
+  if (!(most_apart_ > hardly * frame.range.cwiseQuotient(scale).norm())) frame.apart.resize(0, 0);
   frames_.push_back(std::make_shared<const OrbitFrame>(std::move(frame)));
   return last_frame();
 }
@@ -89,35 +104,37 @@ Vector OrbitProblem::end_scale(const OrbitFrame& frame, const Matrix& orbit, con
   return (change.array() > 0).select(change, 1);
 }
 
-void OrbitProblem::set_apart(OrbitFrame& frame, const Matrix& part, const Matrix& orbit) {
-  if (part.size() == 0) return;
-  const CollocationRule& rule = frame.mesh.rule();
-  const Index m = rule.degree();
-  Matrix weights = Matrix::Zero(part.rows(), frame.mesh.nodes());
-  double square = 0;
-  for (Index j = 0; j < frame.mesh.intervals(); ++j) {
-    for (Index i = 0; i < m; ++i) {
-      const double weight = rule.weights()(i) * frame.mesh.length(j);
-      const Vector at = part.col(j * m + i).cwiseQuotient(frame.scale);
-      square += weight * at.squaredNorm();
-      weights.middleCols(j * m, m + 1) += weight * at.cwiseQuotient(frame.scale) * rule.values().row(i);
-    }
-  }
-  frame.most_apart = std::sqrt(square);
-  frame.apart = weights.reshaped() / frame.most_apart;
-  frame.apart_of_turns = frame.apart.dot(orbit.reshaped()) - frame.most_apart;
-}
-
 double OrbitProblem::apart(const Vector& u, const Regime& regime) const {
   const OrbitFrame& at = frame(regime);
   if (at.apart.size() == 0) return 1;
-  return (at.apart.dot(u.head(at.apart.size())) - at.apart_of_turns) / at.most_apart;
+  const Matrix part = part_apart(at.mesh, orbit(u));
+  return std::copysign(length(at, part), product(at, part, at.apart)) / most_apart_;
+}
+
+void OrbitProblem::note_apart(const Vector& u, const Regime& regime) {
+  const OrbitFrame& at = frame(regime);
+  if (at.apart.size() > 0 && is_nearly_simpler(u, regime))
+    most_apart_ = std::max(most_apart_, length(at, part_apart(at.mesh, orbit(u))));
+}
+
+double OrbitProblem::apart_grip(const Vector& u, const Regime& regime) const {
+  const OrbitFrame& at = frame(regime);
+  if (at.apart.size() == 0) return 1;
+  const Matrix part = part_apart(at.mesh, orbit(u));
+  return product(at, part, at.apart) / (length(at, part) * length(at, at.apart));
+}
+
+bool OrbitProblem::is_nearly_simpler(const Vector& u, const Regime& regime) const {
+  constexpr double little = 0.1;  // 0.35 of a harmonic motion
+  const OrbitFrame& at = frame(regime);
+  return length(at, part_apart(at.mesh, orbit(u))) <
+         little * ranges(orbit(u), at.scale).cwiseQuotient(at.scale).norm();
 }
 
 double OrbitProblem::rounding_apart(const Vector& u, const Regime& regime) const {
   const OrbitFrame& at = frame(regime);
   const double size = (at.in_units.asDiagonal() * orbit(u)).cwiseAbs().maxCoeff();
-  return std::numeric_limits<double>::epsilon() * size / (std::abs(apart(u, regime)) * at.most_apart);
+  return std::numeric_limits<double>::epsilon() * size / length(at, part_apart(at.mesh, orbit(u)));
 }
 
 std::string OrbitProblem::describe(const Regime& regime) const {

@@ -8,8 +8,14 @@
 
 namespace arcslip::continuation {
 
-std::string PeriodicOrbit::end_of_kind() const {
-  return doubled_ ? "the cycle becomes two rounds of one of half the period" : "";
+/// What is left of one that shrinks is all but a harmonic motion.
+bool PeriodicOrbit::is_two_rounds(const Vector& u, const Regime& regime) const {
+  return !has_duration() || is_nearly_simpler(u, regime);
+}
+
+std::string PeriodicOrbit::end_of_kind(const Vector& u, const Regime& regime) const {
+  return is_two_rounds(u, regime) ? "the cycle becomes two rounds of one of half the period"
+                                  : "the cycle shrinks onto an equilibrium";
 }
 
 std::atomic<long> PeriodicOrbit::made_ = 0;

@@ -74,10 +74,11 @@ class SideBySide : public Field {
 
 PiecewiseCycle::PiecewiseCycle(std::shared_ptr<const PiecewiseField> pieces, const OrbitMesh& mesh,
                                const Matrix& orbit, const Vector& p, bool doubled)
-    : PeriodicOrbit(std::make_shared<SideBySide>(pieces), false, doubled),
+    : PeriodicOrbit(std::make_shared<SideBySide>(pieces), false),
       pieces_(std::move(pieces)),
       n_(pieces_->size()),
       count_(pieces_->pieces()),
+      doubled_(doubled),
       winding_(Vector::Zero(n_)) {
   Vector next(n_);
   if (pieces_->jump(count_ - 1, orbit.col(orbit.cols() - 1).segment(n_ * (count_ - 1), n_), p, {&next})) {
@@ -107,7 +108,7 @@ std::shared_ptr<OrbitProblem> PiecewiseCycle::doubled(const OrbitMesh& mesh, con
 
 /// Of a doubled one half of what tells both of its rounds apart.
 Matrix PiecewiseCycle::part_apart(const OrbitMesh& mesh, const Matrix& orbit) const {
-  if (!is_doubled()) return {};
+  if (!doubled_) return {};
   const CollocationRule& rule = mesh.rule();
   const Index half = count_ / 2;
   const Vector turn = 0.5 * winding_.replicate(half, 1).reshaped();

@@ -170,7 +170,7 @@ CycleStart settled_cycle(const std::shared_ptr<const Field>& field, const Vector
   const OrbitMesh mesh = options.trigonometric
                              ? options.mesh(*field)
                              : fine.equidistributed(orbit, Vector::Ones(orbit.rows()), options.intervals);
-  return cycle_from_orbit(field, mesh, fine.carried(orbit, mesh), period, p, periods, periods % 2 == 0);
+  return cycle_from_orbit(field, mesh, fine.carried(orbit, mesh), period, p, periods);
 }
 
 }  // namespace arcslip::continuation

@@ -53,6 +53,44 @@ TEST_CASE("Cycles that leave no equilibrium are a closed branch", "[cycles]") {
   check_values(all_values_at(all, PointType::fold, "mu"), {-0.5, 0.5}, 1e-9);
 }
 
+TEST_CASE("Doubled cycles go on while their halves differ, however they have changed", "[cycles]") {
+  // The difference between both halves turns to what is all but orthogonal to the first one of the branch.
+  const auto all = traced_of(R"case(
+[model]
+kind = "forced"
+period = "2*pi/w"
+[model.parameters]
+w = 1
+[model.equations]
+x = "0.4 - 2.2*x + x^2*y + 0.05*cos(w*t)"
+y = "1.2*x - x^2*y"
+[model.start]
+x = 0.4
+y = 3
+[cycles]
+doublings = 1
+[branch]
+parameter = "w"
+from = 0.3
+to = 1.2
+switching = true
+)case");
+  REQUIRE(all.size() == 2);
+  check_values(values_at(all[0], PointType::period_doubling, "w"), {0.398247435, 0.955971555}, 1e-8);
+  check_values(values_at(all[1], PointType::period_doubling, "w"), {0.713101407, 0.871914228}, 1e-8);
+  check_values(values_at(all[1], PointType::neimark_sacker, "w"), {0.951797946}, 1e-8);
+  CHECK(all[1].branch.stop == Stop::left_regime);
+  CHECK_THAT(value(all[1], all[1].branch.points.back(), "w"), WithinAbs(0.955971555, 1e-6));
+}
+
+TEST_CASE("Cycles that a motion settles on end where they come to be two rounds", "[cycles]") {
+  const auto all = Run("roessler_cascade", {"branch.from=3.2", "branch.to=2.5"}).traced;
+  REQUIRE(all.size() == 1);
+  CHECK(all[0].branch.stop == Stop::left_regime);
+  CHECK_THAT(all[0].branch.explanation, ContainsSubstring("two rounds of one of half the period"));
+  CHECK_THAT(value(all[0], all[0].branch.points.back(), "c"), WithinAbs(2.832445, 2e-6));
+}
+
 TEST_CASE("Cycles leave a Hopf point that lies a millionth from a fold", "[cycles]") {
   const auto all = traced_of(R"case(
 [model.parameters]

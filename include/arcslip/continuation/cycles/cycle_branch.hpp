@@ -22,7 +22,7 @@ std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& fie
 
 /// A cycle close to an orbit: as its values at nodes tell, ends equal, over a time T.
 CycleStart cycle_from_orbit(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
-                            double duration, const Vector& p, int periods = 1, bool doubled = false);
+                            double duration, const Vector& p, int periods = 1);
 
 /// A branch and what its points are solutions of: their regimes are this problem's frames.
 struct CycleBranch {

@@ -16,18 +16,16 @@ namespace arcslip::continuation {
 class CycleProblem : public PeriodicOrbit {
  public:
   /// `periods` of the field's own period, where it has one, make one of the cycle. A branch of cycles ends
-  /// where they shrink onto an equilibrium or, of those that are `doubled`, come to be two rounds of one of
-  /// half the period.
+  /// where they shrink onto an equilibrium or come to be two rounds of one of half the period.
   CycleProblem(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
-               const Vector& p, int periods = 1, bool doubled = false);
+               const Vector& p, int periods = 1);
 
   int periods() const { return periods_; }
   const Vector& winding() const { return winding_; }  ///< w, n
   std::shared_ptr<OrbitProblem> about(const OrbitMesh& mesh, const Matrix& orbit,
                                       const Vector& p) const override {
-    return std::make_shared<CycleProblem>(shared_field(), mesh, orbit, p, periods_, is_doubled());
+    return std::make_shared<CycleProblem>(shared_field(), mesh, orbit, p, periods_);
   }
-  std::string end_of_kind() const override;
 
   bool joins_rounds(Index row, Index column) const override {
     return row < field().size() && column < field().size();
@@ -36,7 +34,7 @@ class CycleProblem : public PeriodicOrbit {
   Matrix two_rounds(const Matrix& once, double sign) const override;
   std::shared_ptr<OrbitProblem> doubled(const OrbitMesh& mesh, const Matrix& orbit,
                                         const Vector& p) const override {
-    return std::make_shared<CycleProblem>(shared_field(), mesh, orbit, p, 2 * periods_, true);
+    return std::make_shared<CycleProblem>(shared_field(), mesh, orbit, p, 2 * periods_);
   }
 
   /// The same problem on intervals about a cycle that is held by a trigonometric polynomial, and the unknowns

@@ -44,12 +44,8 @@ struct OrbitFrame {
   Vector range;     ///< n, how far these go along the orbit
   Vector phase;  ///< n x nodes: weights of the condition that keeps the orbit from sliding along itself; or
                  ///< empty
-  /// n x nodes: of what is left of the motion that keeps the orbit apart from others, over the most that
-  /// there was of it; or empty.
-  Vector apart;
-  double most_apart = 0;
-  double apart_of_turns = 0;  ///< what the whole turns of angles add to it
-  double phase_value = 0;     ///< that of the condition for the frame's own orbit
+  double phase_value = 0;  ///< that of the condition for the frame's own orbit
+  Matrix apart;  ///< n x m N, what keeps the orbit apart from simpler ones; empty where nothing does
 };
 
 /// Abstract: see `CycleProblem`. Unknowns: n x nodes of a mesh, node by node, then T if it is one. Equations:
@@ -102,8 +98,8 @@ class OrbitProblem : public Problem {
   virtual std::shared_ptr<OrbitProblem> about(const OrbitMesh& mesh, const Matrix& orbit,
                                               const Vector& p) const = 0;
 
-  /// Where `apart` vanishes, as the end of a sentence; empty where it never does.
-  virtual std::string end_of_kind() const { return {}; }
+  /// What an orbit comes to at which `apart` vanishes, as the end of a sentence.
+  virtual std::string end_of_kind(const Vector& /*u*/, const Regime& /*regime*/) const { return {}; }
 
   /// Largest estimated error of an orbit, relative to how far its unknowns go.
   double mesh_error(const Vector& u, const Regime& regime) const;
@@ -121,10 +117,18 @@ class OrbitProblem : public Problem {
   double phase_grip(const Vector& u, const Regime& regime) const;
 
   /// How much there is of what keeps an orbit apart from those of a simpler kind, over the most that there
-  /// was: 0 where it is one of these, below 0 beyond; 1 where nothing does.
+  /// was: 0 where it is one of these, below 0 where it is more opposite than alike to that of the frame; 1
+  /// where nothing does.
   double apart(const Vector& u, const Regime& regime) const;
   /// The rounding of the unknowns, relative to that part.
   double rounding_apart(const Vector& u, const Regime& regime) const;
+
+  /// Takes an orbit that is nearly of a simpler kind into account for the most that there was, as those of
+  /// frames are. Not while others read.
+  void note_apart(const Vector& u, const Regime& regime);
+
+  /// How nearly it is alike to that of the frame: 1 for this, 0 where the sign of `apart` tells nothing.
+  double apart_grip(const Vector& u, const Regime& regime) const;
 
   /// du(s_(j+1))/du(s_j) of each interval, n x n, by the Jacobian at an orbit of a field that is not sparse.
   std::vector<Matrix> transfers(const FactoredJacobian& jacobian) const;
@@ -160,12 +164,15 @@ class OrbitProblem : public Problem {
 
   Index nodes() const { return intervals() * degree() + 1; }
 
+  /// Whether what keeps an orbit apart is little beside how far its unknowns go: not where these come to
+  /// rest.
+  bool is_nearly_simpler(const Vector& u, const Regime& regime) const;
+
  private:
   struct Scratch;
   static constexpr Index frame_digits = 4;
   static constexpr Index fours = 4;
 
-  static void set_apart(OrbitFrame& frame, const Matrix& part, const Matrix& orbit);
   Vector end_scale(const OrbitFrame& frame, const Matrix& orbit, const Vector& p) const;
   /// How many of the conditions one unknown at an end enters.
   Index end_entries() const { return field_->sparse() ? 1 : field_->size(); }
@@ -197,6 +204,7 @@ class OrbitProblem : public Problem {
   Matrix padded_slopes_;         // and its derivatives
   Matrix weights_;               // of the blocks of an interval's points, see fill_blocks, at each node
   SparseMatrix pattern_;
+  double most_apart_ = 0;  // what kept any of the orbits apart
 };
 
 }  // namespace arcslip::continuation

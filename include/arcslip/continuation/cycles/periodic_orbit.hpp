@@ -12,9 +12,9 @@ namespace arcslip::continuation {
 /// Abstract: see `CycleProblem` and `PiecewiseCycle`.
 class PeriodicOrbit : public OrbitProblem {
  public:
-  /// Whether a branch of them ends where they come to be two rounds of one of half the period.
-  bool is_doubled() const { return doubled_; }
-  std::string end_of_kind() const override;
+  /// Whether one at which `apart` vanishes is two rounds of one of half the period.
+  bool is_two_rounds(const Vector& u, const Regime& regime) const;
+  std::string end_of_kind(const Vector& u, const Regime& regime) const override;
 
   /// Whether an entry of the Jacobian is that of what a round ends with by what the next one begins with.
   virtual bool joins_rounds(Index row, Index column) const = 0;
@@ -47,8 +47,8 @@ class PeriodicOrbit : public OrbitProblem {
                      const FactoredJacobian& jacobian) const override;
 
  protected:
-  PeriodicOrbit(std::shared_ptr<const Field> field, bool has_duration, bool doubled)
-      : OrbitProblem(std::move(field), has_duration), doubled_(doubled) {}
+  PeriodicOrbit(std::shared_ptr<const Field> field, bool has_duration)
+      : OrbitProblem(std::move(field), has_duration) {}
 
   virtual ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
   /// The same on intervals, by the Jacobian there.
@@ -62,7 +62,6 @@ class PeriodicOrbit : public OrbitProblem {
   static Last& last();
   bool is_last(const Vector& u, const Vector& p, const Regime& regime) const;
 
-  bool doubled_;
   static std::atomic<long> made_;
   long number_ = ++made_;  // which of them this is
 };

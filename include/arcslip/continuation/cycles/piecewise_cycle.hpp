@@ -62,7 +62,7 @@ class PiecewiseCycle : public PeriodicOrbit {
 
   std::shared_ptr<OrbitProblem> about(const OrbitMesh& mesh, const Matrix& orbit,
                                       const Vector& p) const override {
-    return std::make_shared<PiecewiseCycle>(pieces_, mesh, orbit, p, is_doubled());
+    return std::make_shared<PiecewiseCycle>(pieces_, mesh, orbit, p, doubled_);
   }
   bool joins_rounds(Index row, Index column) const override {
     return row >= n_ * (count_ - 1) && row < n_ * count_ && column < n_;
@@ -111,7 +111,8 @@ class PiecewiseCycle : public PeriodicOrbit {
 
   std::shared_ptr<const PiecewiseField> pieces_;
   Index n_;
-  Index count_;     // K
+  Index count_;  // K
+  bool doubled_;
   Vector winding_;  // n, the whole turns of angles in a period
 };
 
