@@ -11,6 +11,8 @@
 #include "arcslip/continuation/path/watch.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
+#include "arcslip/zero_between.hpp"
+#include "orbit_mark.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -22,11 +24,29 @@ class Carrier {
       : problem_(problem), from_(problem.frame(from).mesh), to_(problem.frame(to).mesh), regime_(to) {}
 
   /// n + 1 or n entries, of which those of the orbit change.
-  Vector operator()(const Vector& all) const {
-    Vector result = all;
-    const Index n = problem_.field().size();
-    result.head(n * to_.nodes()) = from_.carried(problem_.orbit(all), to_).reshaped();
-    return result;
+  Vector operator()(const Vector& all) const { return turned(all, turn_); }
+
+  /// From here on orbits begin elsewhere on their way: nearest to where one of the other frame does, as the
+  /// condition on the phase has it.
+  void turn_to(const Vector& from, const Vector& to) {
+    const OrbitFrame& frame = problem_.frame(regime_);
+    if (frame.phase.size() == 0) return;
+    const auto distance = [&](double turn) {
+      return (turned(from, turn) - to).head(frame.phase.size()).norm();
+    };
+    const auto slip = [&](double turn) {
+      return frame.phase.dot(turned(from, turn).head(frame.phase.size())) - frame.phase_value;
+    };
+    const double spacing = 1 / static_cast<double>(to_.nodes());
+    double least = distance(turn_);
+    for (double turn = -0.5; turn < 0.5; turn += spacing) {
+      const double now = distance(turn);
+      if (now < least) turn_ = turn;
+      least = std::min(least, now);
+    }
+    const double before = slip(turn_ - spacing);
+    const double behind = slip(turn_ + spacing);
+    if (before * behind < 0) turn_ = zero_between(slip, turn_ - spacing, turn_ + spacing, before, behind);
   }
 
   /// A point with its tangent, corrected where that can be done.
@@ -46,10 +66,28 @@ class Carrier {
   }
 
  private:
+  Vector turned(const Vector& all, double turn) const {
+    Vector result = all;
+    const Matrix orbit = problem_.orbit(all);
+    auto carried = result.head(orbit.size()).reshaped(orbit.rows(), orbit.cols());
+    if (turn == 0) {
+      carried = from_.carried(orbit, to_);
+      return result;
+    }
+    Vector value;
+    for (Index node = 0; node < to_.nodes(); ++node) {
+      const double s = to_.place(node) + turn;
+      from_.at(orbit, s - std::floor(s), value, nullptr);
+      carried.col(node) = value + std::floor(s) * (orbit.rightCols(1) - orbit.col(0));
+    }
+    return result;
+  }
+
   const OrbitProblem& problem_;
   const OrbitMesh& from_;
   const OrbitMesh& to_;
   Regime regime_;
+  double turn_ = 0;  // of a whole round
 };
 
 /// How far along a branch the frame of its last point serves. On a branch point it has to: others cannot be
@@ -74,6 +112,12 @@ class MeshWatch {
     return waits_ > 0;
   }
 
+  /// What a branch began with, on the mesh that it began on.
+  const CurvePoint& start(const Progress& progress) {
+    if (!start_) start_ = progress.start;
+    return *start_;
+  }
+
   /// A frame for an orbit; none where no mesh of this resolution is good enough.
   std::optional<Regime> renewed(const Vector& u, const Vector& p, const Regime& regime) {
     // or the next point would ask again; a finer mesh starts all over, which takes long where it is large
@@ -92,6 +136,7 @@ class MeshWatch {
   const OrbitOptions& options_;
   double singular_ = std::numeric_limits<double>::quiet_NaN();  // where the last branch point is
   int waits_ = 0;
+  std::optional<CurvePoint> start_;
 };
 
 /// Thrown where a finer mesh is needed and there may be one.
@@ -158,9 +203,12 @@ bool renew(OrbitProblem& problem, MeshWatch& meshes, Branch& branch, const Trace
   CurvePoint here = progress.here;
   if (!carrier.carry(corrector, here)) return false;
   if (!agrees(problem, here, progress.signs) && meshes.can_wait()) return true;
+  progress.start = meshes.start(progress);
   progress.here = here;
   progress.bend = bend.cwiseQuotient(progress.here.scale);
-  Carrier(problem, progress.start.regime, *regime).carry(corrector, progress.start);
+  Carrier of_start(problem, progress.start.regime, *regime);
+  of_start.turn_to(progress.start.unknowns, here.unknowns);
+  of_start.carry(corrector, progress.start);
   progress.past.clear();
   return true;
 }
@@ -215,10 +263,11 @@ class GrowthWatch {
   int points_ = 0;  // since then
 };
 
-/// One way; `begin` traces up to where the observer says no.
+/// One way; `begin` traces up to where the observer says no. Of a branch that leaves a branch point, which
+/// cannot be corrected on the meshes that follow, the mark of this tells where it comes back.
 template <class Begin>
 Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& orbits,
-               const Observer& observer, const Begin& begin) {
+               const Observer& observer, const std::optional<OrbitMark>& left, const Begin& begin) {
   options.journal = nullptr;  // which has no meshes: the same work is done anew
   end_with_kind(problem, options);
   MeshWatch meshes(problem, orbits);
@@ -227,6 +276,7 @@ Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& 
   bool told = false;
   bool grows = false;
   bool rests = false;
+  bool closes = false;
   const TimeBudget time(options);
   const Observer watching = [&](const BranchPoint& point) {
     told = observer && !observer(point);
@@ -234,10 +284,12 @@ Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& 
     worn = point.type != PointType::event && !meshes.serves(point);  // one of these may be the end
     grows = !growth.goes_on(point);
     rests = !options.branch_point_pairs && is_at_rest(problem, point);
-    return !told && !worn && !grows && !rests;
+    closes = left && point.type == PointType::branch_point &&
+             is_same(*left, mark_of(problem, point, index_of(problem.parameter_names(), options.parameter)));
+    return !told && !worn && !grows && !rests && !closes;
   };
   Branch branch = begin(options, watching);
-  while (branch.stop == Stop::interrupted && (worn || rests) && !told && !grows) {
+  while (branch.stop == Stop::interrupted && (worn || rests) && !told && !grows && !closes) {
     if (rests)
       options.branch_point_pairs = true;  // as nothing bends, steps grow beyond what lies between two
     rests = false;
@@ -255,6 +307,12 @@ Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& 
     rest.max_seconds = time.rest().max_seconds;
     branch = go_on_with(problem, std::move(branch), rest, watching);
   }
+  if (branch.stop == Stop::interrupted && closes && !told) {
+    branch.points.back().type = PointType::end;
+    branch.stop = Stop::closed_loop;
+    branch.explanation = "the branch came back to its start";
+    branch.checkpoint.reset();
+  }
   require_departures(problem, branch, options, orbits);
   tell_end_of_kind(problem, problem, options.parameter, branch);
   if (branch.stop == Stop::interrupted && grows && !told) {
@@ -268,8 +326,11 @@ Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& 
 OrbitBranch on_these_intervals(const OrbitStart& start, const TraceOptions& options,
                                const OrbitOptions& orbits, const Observer& observer) {
   OrbitProblem& problem = *start.problem;
+  std::optional<OrbitMark> left;
+  if (start.both_ways && start.guess.direction.size() > 0)
+    left = mark_of(problem, start.guess, index_of(problem.parameter_names(), options.parameter));
   const auto part = [&](bool towards_to) {
-    return one_way(problem, options, orbits, observer,
+    return one_way(problem, options, orbits, observer, left,
                    [&](const TraceOptions& watched, const Observer& watching) {
                      return trace_one_way(problem, start.guess, towards_to, watched, watching);
                    });

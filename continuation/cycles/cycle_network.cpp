@@ -6,15 +6,14 @@
 
 #include "arcslip/continuation/cycles/cycle_branch.hpp"
 #include "arcslip/continuation/path/switching.hpp"
+#include "orbit_mark.hpp"
 
 namespace arcslip::continuation {
 namespace {
 
-/// By what a solution is known whatever its mesh and its phase are.
 struct Mark {
   PointType type;
-  double value;  // of the parameter, in its scale
-  Vector observed;
+  OrbitMark orbit;
 };
 
 /// What is looked for on cycles: extrema of what these have, whereas those of equilibria are others.
@@ -134,18 +133,12 @@ class OrbitNetwork {
   }
 
   Mark mark(const OrbitProblem& problem, const BranchPoint& point) const {
-    Mark result{point.type, point.parameters(parameter_), {}};
-    problem.observe(point.unknowns, point.parameters, point.regime, result.observed);
-    return result;
+    return {point.type, mark_of(problem, point, parameter_)};
   }
 
   long times_marked(const Mark& at) const {
-    constexpr double same = 1e-5;  // located as well, on meshes of their own
     return std::count_if(marks_.begin(), marks_.end(), [&](const Mark& other) {
-      const Vector size = at.observed.cwiseAbs().cwiseMax(1e-3 * at.observed.lpNorm<Eigen::Infinity>());
-      return other.type == at.type &&
-             std::abs(other.value - at.value) <= same * std::max(1.0, std::abs(at.value)) &&
-             (other.observed - at.observed).cwiseQuotient(size).lpNorm<Eigen::Infinity>() < 10 * same;
+      return other.type == at.type && is_same(at.orbit, other.orbit);
     });
   }
 

@@ -53,6 +53,52 @@ TEST_CASE("Cycles that leave no equilibrium are a closed branch", "[cycles]") {
   check_values(all_values_at(all, PointType::fold, "mu"), {-0.5, 0.5}, 1e-9);
 }
 
+TEST_CASE("A closed branch on which meshes and phases change ends where it began", "[cycles]") {
+  // They all but rest at a place of the circle that moves along with it.
+  const auto all = traced_of(circles(
+      "0.25 - mu^2 - (s - 1)^2", "1.05 + (x*cos(4*mu) + y*sin(4*mu))/sqrt(s)",
+      "[model.start]\nx = 1.3\n[cycles]\nsettle = 200\n[branch]\nparameter = \"mu\"\nfrom = -1\nto = 1\n"
+      "start = 0\n"));
+  REQUIRE(all.size() == 1);
+  CHECK(all[0].branch.stop == Stop::closed_loop);
+  check_values(all_values_at(all, PointType::fold, "mu"), {-0.5, 0.5}, 1e-8);
+  CHECK_THAT(value(all[0], all[0].branch.points.back(), "mu"), WithinAbs(0, 1e-8));
+}
+
+TEST_CASE("A closed branch that leaves a branch point comes back to it, whatever its meshes are",
+          "[cycles]") {
+  // Two of FitzHugh's and Nagumo's nerves
+  const auto all = traced_of(R"case(
+[model.parameters]
+I = 0
+[model.equations]
+v1 = "v1 - v1^3/3 - w1 + I - 0.1*(v2 - v1)"
+w1 = "0.2*(v1 + 0.7 - 0.8*w1)"
+v2 = "v2 - v2^3/3 - w2 + I - 0.1*(v1 - v2)"
+w2 = "0.2*(v2 + 0.7 - 0.8*w2)"
+[model.start]
+v1 = -1.2
+v2 = -1.2
+w1 = -0.6
+w2 = -0.6
+[cycles]
+doublings = 0
+[branch]
+parameter = "I"
+from = 0.3
+to = 1.45
+switching = true
+)case");
+  const auto found = cycles_of(all);
+  REQUIRE(found.size() == 2);
+  CHECK(found[1].branch.stop == Stop::closed_loop);
+  const BranchPoint& end = found[1].branch.points.back();
+  CHECK_THAT(value(found[1], end, "I"), WithinAbs(0.373543006, 1e-8));
+  CHECK_THAT(value(found[1], end, "T"), WithinAbs(29.1843566, 1e-5));
+  CHECK(values_at(found[1], PointType::branch_point, "I").size() == 1);
+  CHECK(values_at(found[1], PointType::period_doubling, "I").size() == 8);
+}
+
 TEST_CASE("Doubled cycles go on while their halves differ, however they have changed", "[cycles]") {
   // The difference between both halves turns to what is all but orthogonal to the first one of the branch.
   const auto all = traced_of(R"case(
