@@ -60,10 +60,12 @@ void settle(const ExtendedProblem& problem, const std::string& parameter, Branch
   if (orbits != nullptr && tell_end_of_kind(*orbits, problem, parameter, half)) return;
   const std::vector<PointType> last = problem.last_of_curve();
   if (half.stop != Stop::requested) return;
-  const BranchPoint& end = half.points.back();
-  if (std::count(last.begin(), last.end(), end.type) == 0) return;
+  const auto end = std::find_if(half.points.rbegin(), half.points.rend(), [&](const BranchPoint& point) {
+    return std::count(last.begin(), last.end(), point.type) > 0;
+  });
+  if (end == half.points.rend() || end->arclength != half.points.back().arclength) return;
   half.checkpoint.reset();
-  half.explanation = fmt::format("the curve ends on a {} point", end.type_name());
+  half.explanation = fmt::format("the curve ends on a {} point", end->type_name());
 }
 
 Branch begin_half(ExtendedProblem& problem, const Guess& start, bool towards_to, const TraceOptions& options,
@@ -191,10 +193,8 @@ Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const Trace
 
   const TraceOptions all = bounded(problem, options, window, guess.unknowns, guess.regime);
   const TimeBudget time(all);
-  Branch curve = with_extrema_at_start(
-      problem, all,
-      trace_parts([&] { return begin_half(problem, guess, true, all, observer); },
-                  [&] { return begin_half(problem, guess, false, time.rest(), observer); }, guess));
+  Branch curve = trace_parts([&] { return begin_half(problem, guess, true, all, observer); },
+                             [&] { return begin_half(problem, guess, false, time.rest(), observer); }, guess);
   curve.work.evaluations += to_locate;
   return told(most_telling(std::move(curve)), window);
 }

@@ -74,6 +74,7 @@ class OrbitNetwork {
   void follow(const OrbitStart& start, int doublings) {
     OrbitBranch traced = trace_orbits(start, time_.rest(), orbits_, observer_);
     interrupted_ = is_unfinished(traced.branch.stop);
+    if (begins_outside(traced.branch)) return;
     for (const BranchPoint& point : traced.branch.points) {
       if (point.type == PointType::branch_point || point.type == PointType::period_doubling) {
         marks_.push_back(mark(*traced.problem, point));
@@ -85,6 +86,11 @@ class OrbitNetwork {
       keep_end(*traced.problem, traced.branch.points.back());
     }
     found_.push_back(std::move(traced));
+  }
+
+  /// From a special point on an end of the range away from it.
+  static bool begins_outside(const Branch& branch) {
+    return branch.stop == Stop::no_start && !branch.points.empty();
   }
 
   /// Of one on which orbits come to be of a simpler kind.

@@ -62,7 +62,7 @@ void TorusProblem::test(const Vector& u, const Vector& p, const Regime& regime, 
   const BasePoint point = split(u, p, regime);
   const double kappa = point.extras(0);
   values.resize(5);
-  values << kappa - 1, kappa + 1, kappa + 0.5, kappa, std::nan("");
+  values << 1 - kappa, kappa + 1, kappa + 0.5, kappa, std::nan("");
   constexpr double surely = 1e-6;  // so near to where the pair meets its vectors are rounding
   if (!(std::abs(kappa) < 1 - surely)) return;
   const auto form = multiplier_form(base(), PointType::neimark_sacker,

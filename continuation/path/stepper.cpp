@@ -161,6 +161,12 @@ bool Stepper::turn_back() {
   return false;
 }
 
+bool Stepper::look_ahead(double way) {
+  set_condition(Hold::tangent);
+  step_.distance = way;
+  return prober_.probe(0) && prober_.look_beside(way) != 0;
+}
+
 void Stepper::begin_piece(const CurvePoint& origin) {
   corrector_.set_tangent(step_.here, origin);
   monitors_.look(step_.here, step_.here.scale, step_.here.tangent, at_here_);
@@ -253,7 +259,7 @@ bool Stepper::finish(bool lands, double value) {
   }
 
   set_bend(corner);
-  if (!lands && ends_singular()) {
+  if (ends_singular()) {
     signals_.turn = limits_.turn_limit * 4;
     return false;
   }

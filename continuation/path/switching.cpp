@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <iterator>
 
 #include "arcslip/continuation/events/corner.hpp"
 #include "arcslip/continuation/path/symmetric_branches.hpp"
@@ -241,10 +242,10 @@ class Network {
     const Problem& within = symmetric_.of(start);
     Branch branch = trace_both(within, start, landing_on(solution, problem_, time_.rest()), observer_);
     const IsSolution is_solution(problem_, start, options_);
-    for (const BranchPoint& point : branch.points) {
-      if (is_solution(point)) map_.pass(point);
-    }
+    std::vector<BranchPoint> here;
+    std::copy_if(branch.points.begin(), branch.points.end(), std::back_inserter(here), is_solution);
     take(within, std::move(branch));
+    for (const BranchPoint& point : here) map_.pass(point);
   }
 
   std::vector<Branch> all() {

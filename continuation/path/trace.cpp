@@ -110,39 +110,8 @@ Branch trace_one_way(const Problem& problem, const Guess& guess, bool towards_to
 Branch trace_both(const Problem& problem, const Guess& guess, const TraceOptions& options,
                   const Observer& observer) {
   const TimeBudget time(options);
-  return with_extrema_at_start(
-      problem, options,
-      trace_parts([&] { return trace_one_way(problem, guess, true, options, observer); },
-                  [&] { return trace_one_way(problem, guess, false, time.rest(), observer); }, guess));
-}
-
-Branch with_extrema_at_start(const Problem& problem, const TraceOptions& options, Branch whole) {
-  std::vector<BranchPoint>& points = whole.points;
-  const auto start = std::find_if(points.begin(), points.end(),
-                                  [](const BranchPoint& point) { return point.type == PointType::start; });
-  if (start == points.begin() || points.end() - start < 2) return whole;
-  const std::vector<std::string> names = observable_names(problem);
-  const std::vector<Observable> observables = problem.observables();
-  Matrix values(std::ssize(names), 3);  // before the start, there, and behind it
-  for (Index k = 0; k < 3; ++k) {
-    const BranchPoint& point = start[k - 1];
-    Vector here;
-    problem.observe(point.unknowns, point.parameters, point.regime, here);
-    values.col(k) = here;
-  }
-  std::vector<BranchPoint> extrema;
-  for (const std::string& name : options.extrema_of) {
-    const Index i = index_of(names, name);
-    const Observable& observable = observables[static_cast<std::size_t>(i)];
-    const double least = options.tolerances.no_rate * std::max(observable.scale, std::abs(values(i, 1)));
-    const double before = observable.near(values(i, 0), values(i, 1)) - values(i, 1);
-    const double behind = observable.near(values(i, 2), values(i, 1)) - values(i, 1);
-    if (before * behind <= 0 || std::min(std::abs(before), std::abs(behind)) <= least) continue;
-    extrema.push_back(*start);
-    extrema.back().type = behind < 0 ? PointType::peak : PointType::trough;
-  }
-  points.insert(start + 1, extrema.begin(), extrema.end());
-  return whole;
+  return trace_parts([&] { return trace_one_way(problem, guess, true, options, observer); },
+                     [&] { return trace_one_way(problem, guess, false, time.rest(), observer); }, guess);
 }
 
 Branch trace_parts(const std::function<Branch()>& ahead, const std::function<Branch()>& back,

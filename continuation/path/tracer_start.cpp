@@ -28,10 +28,13 @@ void Tracer::start(const Guess& guess, double forward) {
       guess.direction.size() > 0
           ? stepper_.start_along(guess.unknowns, guess.parameters, guess.regime, forward * guess.direction)
           : stepper_.start(guess.unknowns, guess.parameters, guess.regime, forward);
-  if (result != Correction::converged && result != Correction::cannot_evaluate &&
-      guess.direction.size() == 0) {
-    if (start_singular(guess, forward) == Correction::converged) result = Correction::converged;
-  }
+  const bool is_free = guess.direction.size() == 0;
+  const auto may_be_singular = [&] {
+    return result == Correction::converged ? stepper_.starts_singular()
+                                           : result != Correction::cannot_evaluate;
+  };
+  if (is_free && may_be_singular() && start_singular(guess, forward) == Correction::converged)
+    result = Correction::converged;
   if (result != Correction::converged) {
     look_at_derivatives(guess.unknowns, guess.parameters, guess.regime);
     return stop(Stop::no_start,
@@ -47,22 +50,58 @@ void Tracer::start(const Guess& guess, double forward) {
   }
   if (stepper_.is_over_parameter()) state_.distance = options_.max_step;
   storing_ = true;
+  const bool on_branch_point = std::isinf(stepper_.here().log_determinant);
   watch_.look(stepper_.here());
   watch_.begin();
   state_.signs = signs_at_start(stepper_, watch_);
   // The eigenvalue that vanishes at a branch point has no sign but that of rounding.
-  if (std::isinf(stepper_.here().log_determinant)) state_.signs.unstable = -1;
+  if (on_branch_point) state_.signs.unstable = -1;
   state_.start = stepper_.here();
   store(PointType::start);
-  take_where_it_starts(guess.direction.size() > 0);
+  take_where_it_starts(!is_free || on_branch_point);
   const double same = options_.tolerances.same_value * parameter_scale();
   const double low = std::min(options_.from, options_.to);
   const double high = std::max(options_.from, options_.to);
   if (!(value() >= low - same && value() <= high + same))
     return stop(Stop::no_start, fmt::format("the start lies outside the range, at {}", place()));
   const int way = state_.signs.parameter;  // from a fold the first step tells
-  if ((value() <= low + same && way < 0) || (value() >= high - same && way > 0))
-    stop(Stop::left_range, fmt::format("the branch leaves the range where it starts, at {}", place()));
+  const auto leaves = [&](int sign) {
+    return (value() <= low + same && sign < 0) || (value() >= high - same && sign > 0);
+  };
+  const bool is_ahead = forward * (options_.to - options_.from) > 0;
+  if (is_free && is_ahead && on_branch_point) store(PointType::branch_point);
+  if (leaves(way))
+    return stop(Stop::left_range, fmt::format("the branch leaves the range where it starts, at {}", place()));
+  if (is_free) set_signs_of_zeros(is_ahead, leaves(-way));
+}
+
+/// Of what vanishes where a branch starts the sign is the one before, so that the first step tells it: on one
+/// of the two ways from there. What turns has the same sign on both, and the way ahead tells it; a function
+/// is taken as positive before, as those are that end a curve. The only way within the range tells all.
+void Tracer::set_signs_of_zeros(bool is_ahead, bool is_only) {
+  constexpr double little_way = 1e-3;  // of the largest step
+  constexpr double much_less = 1e-5;
+  if (!stepper_.look_ahead(little_way * options_.max_step)) return;
+  const Probe& ahead = stepper_.prober().beside();
+  const auto vanishes = [](double here, double there) {
+    return std::abs(here) <= much_less * std::abs(there);
+  };
+  const auto take_turn = [&](int& sign, double here, double there) {
+    if (vanishes(here, there)) sign = is_ahead || is_only ? -sign_of(there) : sign_of(there);
+  };
+  if (!std::isinf(stepper_.here().log_determinant)) {
+    take_turn(state_.signs.parameter, stepper_.parameter_slope(Hold::tangent), ahead.parameter_rate());
+    for (std::size_t i = 0; i < state_.signs.observables.size(); ++i)
+      take_turn(state_.signs.observables[i], stepper_.at_here()[i].slope, ahead.monitors[i].slope);
+  }
+  if (watch_.searched() == 0) return;
+  watch_.look(ahead.point);
+  for (std::size_t i = 0; i < watch_.searched(); ++i) {
+    const double there = watch_.functions()[i];
+    if (!watch_.piece_of(i) && there != 0 && vanishes(watch_.kept().front().functions[i], there))
+      state_.signs.functions[i] = is_only ? -sign_of(there) : 1;
+  }
+  watch_.look(stepper_.here());
 }
 
 /// A start on a fold or on a branch point, where the parameter does not determine the solution.

@@ -64,6 +64,19 @@ TEST_CASE("Case files of boundary value problems have the points of their closed
   CHECK(orbits_header(column[1]) == "branch,point,type,s,angle,moment\n");
 }
 
+TEST_CASE("Loads on which a column is asked for may be those at which it buckles", "[boundaries]") {
+  const Settings to_first{"branch.switching=false", "branch.to=9.869604401089358"};
+  const Settings from_first{"branch.switching=false", "branch.from=9.869604401089358", "branch.to=20.0"};
+  const Settings past_first{"branch.switching=false", "branch.to=20.0",
+                            "continuation.stop_at=[9.869604401089358]"};
+  for (const Settings& settings : {to_first, from_first, past_first}) {
+    const auto column = Run("buckling_boundary", settings).traced;
+    REQUIRE(column.size() == 1);
+    CHECK(column[0].branch.complete());
+    check_values(values_at(column[0], PointType::branch_point, "P"), {pi * pi}, 1e-9);
+  }
+}
+
 TEST_CASE("Where the real solutions of Bratu's problem end complex ones go on", "[boundaries]") {
   const auto all = traced_of(  // AUTO-07p, demo ezp
       "[model]\nkind = \"boundary\"\ninterval = { x = [0, 1] }\nparameters = { lambda = 0.1 }\n"

@@ -1,5 +1,7 @@
 // The section [model] of case files: what works for models of the library works for formulas as well.
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "arcslip/cases/runs.hpp"
@@ -75,6 +77,57 @@ TEST_CASE("The Brusselator loses its stability at B = 1 + A^2") {
     CHECK_THAT(point.parameters(1), Catch::Matchers::WithinRel(1 + A * A, 1e-11));
     CHECK(std::abs(std::abs(point.eigenvalues(0).imag()) - A) < 1e-8);
   }
+}
+
+TEST_CASE("A special point where a branch starts is told once, and what leaves it is followed") {
+  const auto from_zero = [](const std::string& kind, const std::string& equation, PointType type,
+                            std::size_t branches) {
+    const std::string text = "[model]\n" + kind + "parameters = { p = 0 }\nequations = { x = \"" + equation +
+                             "\" }\n[branch]\nparameter = \"p\"\nswitching = true\n";
+    for (const auto& range : {std::vector<std::string>{"branch.from=-1", "branch.start=0"},
+                              std::vector<std::string>{"branch.from=0"}}) {
+      std::vector<std::string> settings = range;
+      settings.emplace_back("branch.to=1");
+      const auto all = all_traced(plan_of(text, settings));
+      CHECK(all.size() == branches);
+      const auto told = found(all, type);
+      REQUIRE(told.size() == 1);
+      CHECK(std::abs(told[0].parameters(0)) < 1e-10);
+      CHECK(std::abs(told[0].arclength) < 1e-10);
+    }
+  };
+  from_zero("", "p*x - x^2", PointType::branch_point, 3);
+  from_zero("", "p*x - x^3", PointType::branch_point, 3);
+  from_zero("", "p - x^2", PointType::fold, 1);
+  from_zero("kind = \"map\"\n", "-(1 + p)*x + x^2", PointType::period_doubling, 1);
+}
+
+TEST_CASE("A curve that starts where it ends is followed the other way") {
+  const double sense = GENERATE(-1.0, 1.0);
+  const auto all =
+      all_traced(plan_of(R"(
+[model]
+parameters = { a = -1, b = 0 }
+start = { x = -1 }
+equations = { x = "y", y = "a + b*y + x^2 - x*y" }
+[branch]
+curve = "fold"
+parameters = ["a", "b"]
+window = [-1, 1]
+switching = true
+)",
+                         {fmt::format("branch.from={}", -sense), fmt::format("branch.to={}", sense)}));
+  REQUIRE(all.size() == 2);
+  for (const TracedBranch& one : all) CHECK(found({one}, PointType::bogdanov_takens).size() == 1);
+  double least = 0;  // of b at the Hopf points, a = -b^2, b < 0
+  for (const BranchPoint& point : all[1].branch.points) least = std::min(least, point.parameters(0));
+  CHECK_THAT(least, Catch::Matchers::WithinAbs(-1, 1e-9));
+}
+
+TEST_CASE("Cycles that leave the range with a Hopf point on its end are not begun") {
+  const auto all = all_traced(plan_of(brusselator, {"branch.to=2", "branch.switching=true"}));
+  REQUIRE(all.size() == 1);
+  CHECK(found(all, PointType::hopf).size() == 1);
 }
 
 TEST_CASE("The map of Henon doubles its periods where they are known to") {

@@ -57,6 +57,13 @@ class Stepper {
   Correction start_along(const Vector& unknowns, const Vector& parameters, const Regime& regime,
                          const Vector& direction);
 
+  /// Whether a start from a guess is a fold or a branch point, where the parameter cannot be kept.
+  bool starts_singular() { return !is_regular() && crossings_.starts_singular(max_step_); }
+
+  /// Looks a little way ahead along the tangent, for the prober's `beside`; false where nothing can be
+  /// evaluated there.
+  [[nodiscard]] bool look_ahead(double way);
+
   /// Puts back what a checkpoint holds.
   void restore(const Progress& progress);
   /// What a checkpoint takes: the curvature of the last step, and monitors at `here`, their slopes along the

@@ -143,9 +143,6 @@ Branch join(Branch first, Branch second);
 Branch trace_parts(const std::function<Branch()>& ahead, const std::function<Branch()>& back,
                    const Guess& guess);
 
-/// With the extrema on which both parts begin, which neither of them tells.
-Branch with_extrema_at_start(const Problem& problem, const TraceOptions& options, Branch whole);
-
 /// What is left of such a branch: `go_on` goes on with a part, `begin_back` begins the one back.
 Branch resume_parts(const Checkpoint& checkpoint, const std::function<Branch(const Progress&)>& go_on,
                     const std::function<Branch(const Guess&)>& begin_back);
