@@ -88,6 +88,42 @@ TEST_CASE("Cycles of a sparse case leave its Hopf point with its period, stable"
   CHECK(std::all_of(points.begin(), points.end(), [](const auto& point) { return point.unstable == 0; }));
 }
 
+TEST_CASE("What a motion settles on is its own stable cycle, not one that it comes by", "[cycles]") {
+  struct Settled {
+    std::string from, time;
+    double period;
+  };
+  for (const Settled& one : {Settled{"2.84", "2000", 11.5390507}, Settled{"3.9", "400", 23.157204}}) {
+    const auto traced = Run("roessler_cascade", {"branch.from=" + one.from, "branch.to=4",
+                                                 "cycles.settle=" + one.time, "branch.switching=false"})
+                            .traced;
+    REQUIRE(traced.size() == 1);
+    const BranchPoint& start = traced[0].branch.points.front();
+    CHECK(start.unstable == 0);
+    CHECK_THAT(value(traced[0], start, "T"), WithinRel(one.period, 1e-6));
+  }
+  const auto bursts = traced_of(R"case(
+[model]
+parameters = { I = 3.5 }
+start = { x = -1, y = -4, z = 3.3 }
+[model.equations]
+x = "y - x^3 + 3*x^2 - z + I"
+y = "1 - 5*x^2 - y"
+z = "0.01*(4*(x + 1.6) - z)"
+[cycles]
+settle = 3000
+[branch]
+parameter = "I"
+from = 3.5
+to = 3.6
+)case");
+  REQUIRE(bursts.size() == 1);
+  const BranchPoint& start = bursts[0].branch.points.front();
+  CHECK(start.unstable == 0);
+  CHECK_THAT(value(bursts[0], start, "T"), WithinRel(59.3317421, 1e-6));  // of two spikes
+  CHECK(bursts[0].branch.stop == Stop::left_regime);                      // in two rounds of one
+}
+
 TEST_CASE("Lorenz' cycles at large rho double their periods where AUTO-07p has it", "[cycles][numbers]") {
   const Run run("lorenz_doublings");
   CHECK_THAT(values_at(run.traced.front(), PointType::branch_point, "rho").at(0), WithinAbs(312.97, 5e-3));
