@@ -12,10 +12,10 @@ int sign_of_rate(const Stepper& stepper, double rate) {
 
 namespace {
 
-/// Of an observable's slope, 0 up to `least` of its size.
-int sign_of_slope(const Stepper& stepper, std::size_t observable, const Monitor& monitor, double least) {
+/// Of an observable's slope, 0 up to `bound` of its size.
+int sign_of_slope(const Stepper& stepper, std::size_t observable, const Monitor& monitor, double bound) {
   const double size = stepper.monitors().size_of(observable, monitor.value);
-  return std::abs(monitor.slope) <= least * size ? 0 : sign_of(monitor.slope);
+  return std::abs(monitor.slope) <= bound * size ? 0 : sign_of(monitor.slope);
 }
 
 }  // namespace

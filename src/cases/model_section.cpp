@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "arcslip/problems/formulas/formula_problem.hpp"
 
@@ -280,6 +281,28 @@ const KeyTable<FormulaSystem>& model_keys() {
   return keys;
 }
 
+/// Whether branches of cycles may be asked for.
+bool may_have_cycles(const FormulaSystem& system, const TomlDocument& document) {
+  if (system.kind == FormulaKind::forced || system.kind == FormulaKind::piecewise) return true;
+  const auto given = [&](const char* place) { return document.root().at_path(place); };
+  const bool leaves_hopf_points = given("branch.switching").value_or(false) && !given("branch.curve");
+  return system.kind == FormulaKind::flow && (given("cycles.settle") || leaves_hopf_points);
+}
+
+/// Refuses what columns of cycles are called.
+void check_cycle_names(const FormulaSystem& system) {
+  std::set<std::string> columns{"T", "norm"};
+  for (const Formula& equation : system.equations)
+    columns.insert({equation.name + "_max", equation.name + "_min"});
+  const auto check = [&](const std::string& name, const std::string& place) {
+    if (columns.contains(name))
+      throw FormulaError(place,
+                         fmt::format("results of cycles have {} already; expected another name", name));
+  };
+  for (const FormulaParameter& parameter : system.parameters) check(parameter.name, parameter.place);
+  for (const Formula& equation : system.equations) check(equation.name, equation.place);
+}
+
 FormulaSystem read_formulas(const TomlDocument& document) {
   FormulaSystem system;
   const TomlSection section(document, section_name);
@@ -318,6 +341,7 @@ std::shared_ptr<const LibraryModel> read_model_section(const TomlDocument& docum
   try {
     FormulaSystem system = read_formulas(document);
     scale_by_ranges(document, system);
+    if (may_have_cycles(system, document)) check_cycle_names(system);
     return std::make_shared<const LibraryModel>(problems::model_of(system));
   } catch (const FormulaError& error) {
     document.fail(document.root().at_path(error.place()).node(), error.place(), error.why());

@@ -270,6 +270,15 @@ TEST_CASE("Mistakes in formulas are told on one line, with their place in the fi
     check_message(error_in(replaced(brusselator, mistake.from, mistake.to)), mistake);
   CHECK(error_in(brusselator, {"model.equations.x=\"A - q\""}) ==
         "--set: model.equations.x: unknown name \"q\" at column 5 of \"A - q\"; there are x, y, B, A");
+  for (const std::string name : {"T", "norm", "x_max", "y_min"}) {  // of columns of cycles
+    const std::string named = replaced(brusselator, "A = 1", "A = 1\n" + name + " = 1");
+    CHECK(error_in(named) == "no error");
+    CHECK(error_in(replaced(named, "to = 4", "to = 4\nswitching = true")) ==
+          fmt::format(
+              "case.toml:5:{}: model.parameters.{}: results of cycles have {} already; expected another "
+              "name",
+              name.size() + 4, name, name));
+  }
   CHECK(error_in("[model.parameters]\na = 1\n[branch]\n").find("model.equations: missing") !=
         std::string::npos);
   CHECK(error_in("[branch]\n").find("[system] or [model]") != std::string::npos);
