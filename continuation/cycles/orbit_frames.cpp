@@ -77,7 +77,7 @@ Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const
   Vector scale(orbit.rows());
   Vector unused(p.size());
   field_->scale(orbit.cwiseAbs().rowwise().maxCoeff(), p, scale, unused);
-  OrbitFrame frame{mesh, scale, scale.cwiseInverse(), {}, ranges(orbit, scale), {}};
+  OrbitFrame frame{mesh, scale, scale.cwiseInverse(), {}, ranges(orbit, scale), {}, 0, {}};
   frame.ends = end_scale(frame, orbit, p);
   if (has_duration_) frame.phase = phase_weights(mesh, orbit, scale);
   if (has_duration_) frame.phase_value = frame.phase.dot(orbit.reshaped());

@@ -11,11 +11,11 @@ namespace {
 /// Which way the parameter came: by how far it went, as each step of a branch that winds may begin on a fold;
 /// of a way that is rounding, or that of a parameter that stands still, by its rate where that began.
 int way_here(const StepSearch& search) {
-  constexpr double rounding = 1e-12;
+  constexpr double hardly = 1e-12;
   const Step& step = search.stepper.step();
   if (step.past.empty()) return 0;
   const double standing = search.tolerances.no_rate * step.past.front().behind;
-  return std::abs(step.moved) > std::max(rounding, standing)
+  return std::abs(step.moved) > std::max(hardly, standing)
              ? sign_of(step.moved)
              : sign_of_rate(search.stepper, step.past.front().rate / step.here.scale.tail(1)(0));
 }
