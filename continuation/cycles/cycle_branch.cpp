@@ -11,84 +11,11 @@
 #include "arcslip/continuation/path/watch.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
-#include "arcslip/zero_between.hpp"
+#include "carrier.hpp"
 #include "orbit_mark.hpp"
 
 namespace arcslip::continuation {
 namespace {
-
-/// Vectors of one frame in another one.
-class Carrier {
- public:
-  Carrier(const OrbitProblem& problem, const Regime& from, const Regime& to)
-      : problem_(problem), from_(problem.frame(from).mesh), to_(problem.frame(to).mesh), regime_(to) {}
-
-  /// n + 1 or n entries, of which those of the orbit change.
-  Vector operator()(const Vector& all) const { return turned(all, turn_); }
-
-  /// From here on orbits begin elsewhere on their way: nearest to where one of the other frame does, as the
-  /// condition on the phase has it.
-  void turn_to(const Vector& from, const Vector& to) {
-    const OrbitFrame& frame = problem_.frame(regime_);
-    if (frame.phase.size() == 0) return;
-    const auto distance = [&](double turn) {
-      return (turned(from, turn) - to).head(frame.phase.size()).norm();
-    };
-    const auto slip = [&](double turn) {
-      return frame.phase.dot(turned(from, turn).head(frame.phase.size())) - frame.phase_value;
-    };
-    const double spacing = 1 / static_cast<double>(to_.nodes());
-    double least = distance(turn_);
-    for (double turn = -0.5; turn < 0.5; turn += spacing) {
-      const double now = distance(turn);
-      if (now < least) turn_ = turn;
-      least = std::min(least, now);
-    }
-    const double before = slip(turn_ - spacing);
-    const double behind = slip(turn_ + spacing);
-    if (before * behind < 0) turn_ = zero_between(slip, turn_ - spacing, turn_ + spacing, before, behind);
-  }
-
-  /// A point with its tangent, corrected where that can be done.
-  bool carry(Corrector& corrector, CurvePoint& point) const {
-    const Vector raw = (*this)(point.tangent.cwiseProduct(point.scale));
-    point.unknowns = (*this)(point.unknowns);
-    point.regime = regime_;
-    corrector.set_scale(point);
-    point.tangent = raw.cwiseQuotient(point.scale).normalized();
-    const CurvePoint origin = point;
-    if (corrector.correct(point, origin, origin.tangent, 0, true) != Correction::converged) {
-      point = origin;
-      return false;
-    }
-    corrector.set_tangent(point, origin);
-    return true;
-  }
-
- private:
-  Vector turned(const Vector& all, double turn) const {
-    Vector result = all;
-    const Matrix orbit = problem_.orbit(all);
-    auto carried = result.head(orbit.size()).reshaped(orbit.rows(), orbit.cols());
-    if (turn == 0) {
-      carried = from_.carried(orbit, to_);
-      return result;
-    }
-    Vector value;
-    for (Index node = 0; node < to_.nodes(); ++node) {
-      const double s = to_.place(node) + turn;
-      from_.at(orbit, s - std::floor(s), value, nullptr);
-      carried.col(node) = value + std::floor(s) * (orbit.rightCols(1) - orbit.col(0));
-    }
-    return result;
-  }
-
-  const OrbitProblem& problem_;
-  const OrbitMesh& from_;
-  const OrbitMesh& to_;
-  Regime regime_;
-  double turn_ = 0;  // of a whole round
-};
 
 /// How far along a branch the frame of its last point serves. On a branch point it has to: others cannot be
 /// corrected there.
@@ -124,7 +51,7 @@ class MeshWatch {
     const double margin = problem_.field().sparse() ? 0.5 : 0.3;
     const OrbitFrame& frame = problem_.frame(regime);
     const Matrix orbit = problem_.orbit(u);
-    const Vector range = frame.range.cwiseMax(ranges(orbit, frame.scale));
+    const Vector range = range_on(frame, orbit);
     OrbitMesh mesh = frame.mesh.equidistributed(orbit, range, problem_.resolution());
     Matrix carried = frame.mesh.carried(orbit, mesh);
     if (mesh.errors(carried, range).maxCoeff() > margin * options_.tolerance) return std::nullopt;

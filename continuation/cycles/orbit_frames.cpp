@@ -53,6 +53,11 @@ double length(const OrbitFrame& frame, const Matrix& a) { return std::sqrt(produ
 
 }  // namespace
 
+Vector range_on(const OrbitFrame& frame, const Eigen::Ref<const Matrix>& orbit) {
+  constexpr double much_smaller = 1e-3;
+  return frame.range.cwiseMax(much_smaller * ranges(orbit, frame.scale));
+}
+
 CollocationRule rule_for(const Field& field, int degree) {
   return CollocationRule(degree, field.sparse() ? CollocationPoints::radau : CollocationPoints::gauss);
 }
@@ -125,7 +130,7 @@ double OrbitProblem::apart_grip(const Vector& u, const Regime& regime) const {
 }
 
 bool OrbitProblem::is_nearly_simpler(const Vector& u, const Regime& regime) const {
-  constexpr double little = 0.1;  // 0.35 of a harmonic motion
+  constexpr double little = 0.1;  // 0.35 of a sine
   const OrbitFrame& at = frame(regime);
   return length(at, part_apart(at.mesh, orbit(u))) <
          little * ranges(orbit(u), at.scale).cwiseQuotient(at.scale).norm();
@@ -144,7 +149,7 @@ std::string OrbitProblem::describe(const Regime& regime) const {
 double OrbitProblem::mesh_error(const Vector& u, const Regime& regime) const {
   const OrbitFrame& at = frame(regime);
   const auto values = orbit(u);
-  return at.mesh.errors(values, at.range.cwiseMax(ranges(values, at.scale))).maxCoeff();
+  return at.mesh.errors(values, range_on(at, values)).maxCoeff();
 }
 
 double OrbitProblem::phase_grip(const Vector& u, const Regime& regime) const {

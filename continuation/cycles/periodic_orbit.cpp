@@ -8,7 +8,7 @@
 
 namespace arcslip::continuation {
 
-/// What is left of one that shrinks is all but a harmonic motion.
+/// What is left of one that shrinks is all but a sine.
 bool PeriodicOrbit::is_two_rounds(const Vector& u, const Regime& regime) const {
   return !has_duration() || is_nearly_simpler(u, regime);
 }

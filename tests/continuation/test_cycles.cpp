@@ -142,7 +142,8 @@ TEST_CASE("Points of short steps take little more than one factorisation each", 
   const CycleBranch all = trace_cycles(start, options, {});
   const Branch& branch = all.branch;
   REQUIRE(branch.points.size() >= 60);
-  CHECK(branch.work.factorizations < 5 * std::ssize(branch.points) / 4);
+  constexpr long at_start = 3;  // looks ahead, for what vanishes there
+  CHECK(branch.work.factorizations - at_start < 5 * std::ssize(branch.points) / 4);
   for (std::size_t i = 0; i < branch.points.size(); i += 7) {
     const BranchPoint& point = branch.points[i];
     const Solution solution = solve(*all.problem, {point.unknowns, point.parameters, point.regime});

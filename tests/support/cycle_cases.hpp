@@ -54,4 +54,10 @@ inline void check_values(const std::vector<double>& found, const std::vector<dou
     CHECK_THAT(found[i], WithinAbs(wanted[i], margin * std::max(1.0, std::abs(wanted[i]))));
 }
 
+/// x' = g x - turn y, y' = turn x + g y: cycles are the circles on which g(x^2 + y^2, mu) vanishes.
+inline std::string circles(const std::string& g, const std::string& turn, const std::string& rest) {
+  return "[model.parameters]\nmu = 0\n[model.definitions]\ns = \"x^2 + y^2\"\ng = \"" + g + "\"\nturn = \"" +
+         turn + "\"\n[model.equations]\nx = \"g*x - turn*y\"\ny = \"turn*x + g*y\"\n" + rest;
+}
+
 }  // namespace arcslip::testing
