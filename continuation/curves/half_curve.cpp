@@ -34,6 +34,10 @@ Branch follow_curve(ExtendedProblem& problem, const Observer& observer,
   Branch part = trace(follow);
   part.work.evaluations = problem.evaluations() - before;
   if (part.points.empty()) return part;
+  // An edge that is met together with the end of the other range is told by that.
+  part.points.erase(std::remove_if(part.points.begin(), part.points.end() - 1,
+                                   [](const BranchPoint& point) { return point.label == end_of_window; }),
+                    part.points.end() - 1);
   BranchPoint& last = part.points.back();
   if (last.label == end_of_window) {
     part.checkpoint.reset();

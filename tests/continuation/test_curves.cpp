@@ -127,6 +127,14 @@ TEST_CASE("A curve ends on the edge of its window in the active parameter") {
   CHECK(curve.points.back().type == PointType::end);
   CHECK_THAT(curve.explanation, ContainsSubstring("mu"));
   CHECK(of_type(curve, PointType::cusp).size() == 1);
+
+  // Both arms come to a corner: mu = -+2 at lambda = 3.
+  FoldProblem same(problem, 0);
+  const BasePoint within{vector_of({0.5}), vector_of({-0.25, 0.75}), 0, {}};
+  const Branch cut = trace_curve(same, within, over("lambda", -1, 3), {-2, 2});
+  CHECK(cut.complete());
+  CHECK(of_type(cut, PointType::event).empty());
+  CHECK(of_type(cut, PointType::end).size() == 2);
 }
 
 TEST_CASE("A curve may start on an extremum of the active parameter, and on the edge of its range") {

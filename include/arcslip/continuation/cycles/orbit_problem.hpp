@@ -48,8 +48,8 @@ struct OrbitFrame {
   Matrix apart;  ///< n x m N, what keeps the orbit apart from simpler ones; empty where nothing does
 };
 
-/// What the errors of an orbit are relative to on a mesh that was made for another one: the range of that, but
-/// where this goes a thousand times as far.
+/// What the errors of an orbit are relative to on a mesh that was made for another one: the range of that,
+/// but where this goes a thousand times as far.
 Vector range_on(const OrbitFrame& frame, const Eigen::Ref<const Matrix>& orbit);
 
 /// Abstract: see `CycleProblem`. Unknowns: n x nodes of a mesh, node by node, then T if it is one. Equations:
