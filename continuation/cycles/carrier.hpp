@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "arcslip/continuation/cycles/orbit_problem.hpp"
 #include "arcslip/continuation/path/corrector.hpp"
@@ -20,27 +21,28 @@ class Carrier {
   /// n + 1 or n entries, of which those of the orbit change.
   Vector operator()(const Vector& all) const { return turned(all, turn_); }
 
-  /// From here on orbits begin elsewhere on their way: nearest to where one of the other frame does, as the
-  /// condition on the phase has it.
+  /// From here on orbits begin where the condition on the phase has it for one of them; where it has several
+  /// places, at the one nearest to an orbit of the new frame.
   void turn_to(const Vector& from, const Vector& to) {
     const OrbitFrame& frame = problem_.frame(regime_);
-    if (frame.phase.size() == 0) return;
-    const auto distance = [&](double turn) {
-      return (turned(from, turn) - to).head(frame.phase.size()).norm();
-    };
-    const auto slide = [&](double turn) {
-      return frame.phase.dot(turned(from, turn).head(frame.phase.size())) - frame.phase_value;
+    const Index count = frame.phase.size();
+    if (count == 0) return;
+    const auto slide = [&](double turn) {  // grows where both move alike
+      return frame.phase.dot(turned(from, turn).head(count)) - frame.phase_value;
     };
     const double spacing = 1 / static_cast<double>(to_.nodes());
-    double least = distance(turn_);
+    double least = std::numeric_limits<double>::infinity();
+    double before = slide(-0.5);
     for (double turn = -0.5; turn < 0.5; turn += spacing) {
-      const double now = distance(turn);
-      if (now < least) turn_ = turn;
-      least = std::min(least, now);
+      const double behind = slide(turn + spacing);
+      if (before < 0 && behind >= 0) {
+        const double there = zero_between(slide, turn, turn + spacing, before, behind);
+        const double distance = (turned(from, there) - to).head(count).norm();
+        if (distance < least) turn_ = there;
+        least = std::min(least, distance);
+      }
+      before = behind;
     }
-    const double before = slide(turn_ - spacing);
-    const double behind = slide(turn_ + spacing);
-    if (before * behind < 0) turn_ = zero_between(slide, turn_ - spacing, turn_ + spacing, before, behind);
   }
 
   /// A point with its tangent, corrected where that can be done.
