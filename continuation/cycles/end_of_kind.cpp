@@ -25,7 +25,8 @@ void end_with_kind(const OrbitProblem& orbits, TraceOptions& options, double beg
   };
   options.events.push_back(
       {end_of_kind_name, [=, &orbits](const Vector& u, const Vector& /*p*/, const Regime& regime) {
-         return orbits.apart(u, regime) - most * least(u, regime);
+         // More than there was becomes the most from the next point on, whose value it then is.
+         return std::min(orbits.apart(u, regime), most) - most * least(u, regime);
        }});
   options.stop_after.push_back({PointType::event, 1, end_of_kind_name});
 }
