@@ -118,6 +118,21 @@ TEST_CASE("Cycles that a motion settles on end where they come to be two rounds"
   }
 }
 
+TEST_CASE("Where more branches of cycles leave than are followed, the last one says so", "[cycles]") {
+  for (const std::size_t most : {1, 2, 3}) {
+    CAPTURE(most);
+    const auto all = Run("roessler_cascade", {fmt::format("cycles.max_branches={}", most)}).traced;
+    REQUIRE(all.size() == most);
+    for (std::size_t i = 0; i + 1 < most; ++i) CHECK(all[i].branch.warning.empty());
+    const std::string& told = all.back().branch.warning;
+    if (most == 3) CHECK(told.empty());  // those are all
+    if (most == 1)
+      CHECK_THAT(told, ContainsSubstring("max_branches = 1 were followed; what leaves at c = 2.83244"));
+    if (most == 2)
+      CHECK_THAT(told, ContainsSubstring("max_branches = 2 were followed; what leaves at c = 3.83735"));
+  }
+}
+
 TEST_CASE("Cycles leave a Hopf point that lies a millionth from a fold", "[cycles]") {
   const auto all = traced_of(R"case(
 [model.parameters]
