@@ -82,12 +82,36 @@ def test_a_map_doubles_its_period():
         ({"definitions": {"rate": "rate"}}, r"^definitions\.rate: is defined by itself: rate -> rate$"),
         ({"kind": "flux"}, r"^kind: expected one of flow, forced, map, algebraic"),
         ({"iterate": 2}, r"^iterate: "),
+        ({"scale": {"z": 1}}, r"^scale\.z: there is no unknown or parameter of this name$"),
+        ({"scale": {"x": 0}}, r"^scale\.x: expected a number > 0, got 0\.0$"),
         ({"equations": {"x": None}}, r"^equations\.x: expected a formula"),
     ],
 )
 def test_mistakes_are_told_on_one_line(change, message):
     with pytest.raises(ValueError, match=message):
         arcslip.Model(**{**BRUSSELATOR, **change})
+
+
+def test_cycles_of_a_model_in_small_units_are_those_in_usual_ones():
+    ends = []
+    for s in (1, 1e-6):
+        model = arcslip.Model(
+            equations={"x": "s - (B + 1)*x + x^2*y/s^2", "y": "B*x - x^2*y/s^2"},
+            parameters={"B": 1.5, "s": s},
+            start={"x": "s", "y": "s*B"},
+            scale={"x": s, "y": s},
+        )
+        (cycles,) = arcslip.trace_cycles(model, parameter="B", range=(1.5, 4))
+        ends.append((cycles["T"][-1], cycles["x_max"][-1] / s))
+    assert ends[1] == pytest.approx(ends[0], rel=1e-7)
+
+
+def test_more_branches_than_are_followed_are_told():
+    with pytest.warns(RuntimeWarning, match="max_branches = 1 were followed"):
+        found = arcslip.trace_all(
+            lambda u, p: [p["p"] * u[0] - u[0] ** 3], [0.0], {"p": -1.0}, range=(-1, 1), max_branches=1
+        )
+    assert len(found) == 1
 
 
 def test_parameters_that_a_model_has_not_are_refused():

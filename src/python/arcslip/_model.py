@@ -77,8 +77,11 @@ class Model(Problem):
         wrong = [name for name in angles if name not in equations]
         if wrong:
             raise ValueError(f"angles: there is no '{wrong[0]}' among {', '.join(equations)}")
-        self.values = {str(name): _number(name, value) for name, value in parameters.items()}
-        scale = {str(name): _number(name, value) for name, value in (scale or {}).items()}
+        self.values = {str(name): _number(f"parameters.{name}", value) for name, value in parameters.items()}
+        scale = {str(name): _number(f"scale.{name}", value) for name, value in (scale or {}).items()}
+        wrong = [name for name, value in scale.items() if value <= 0]
+        if wrong:
+            raise ValueError(f"scale.{wrong[0]}: expected a number > 0, got {scale[wrong[0]]!r}")
         self._formulas = _core.Formulas(
             kind,
             int(iterate),
@@ -184,9 +187,9 @@ def _number(name, value):
     try:
         number = float(value)
     except (TypeError, ValueError) as error:
-        raise ValueError(f"parameters.{name}: expected a number, got {value!r}") from error
+        raise ValueError(f"{name}: expected a number, got {value!r}") from error
     if not np.isfinite(number):
-        raise ValueError(f"parameters.{name}: expected a finite number, got {value!r}")
+        raise ValueError(f"{name}: expected a finite number, got {value!r}")
     return number
 
 
