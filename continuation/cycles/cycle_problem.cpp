@@ -23,15 +23,14 @@ Matrix CycleProblem::part_apart(const OrbitMesh& mesh, const Matrix& orbit) cons
   const CollocationRule& rule = mesh.rule();
   const Index m = rule.degree();
   Matrix part(orbit.rows(), m * mesh.intervals());
-  Vector here;
   Vector there;
   for (Index j = 0; j < mesh.intervals(); ++j) {
     for (Index i = 0; i < m; ++i) {
       const double s = mesh.borders()(j) + mesh.length(j) * rule.points()(i);
-      mesh.at(orbit, s, here, nullptr);
       const double other = s < 0.5 ? s + 0.5 : s - 0.5;
       mesh.at(orbit, other, there, nullptr);
-      part.col(j * m + i) = 0.5 * (here - there + (other - s) * winding_);
+      part.col(j * m + i) = 0.5 * (orbit.middleCols(j * m, m + 1) * rule.values().row(i).transpose() - there +
+                                   (other - s) * winding_);
     }
   }
   return part;

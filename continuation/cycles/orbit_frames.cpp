@@ -51,6 +51,12 @@ double product(const OrbitFrame& frame, const Matrix& a, const Matrix& b) {
 
 double length(const OrbitFrame& frame, const Matrix& a) { return std::sqrt(product(frame, a, a)); }
 
+/// Whether what keeps an orbit apart is little beside how far it goes.
+bool is_little(const OrbitFrame& frame, double apart, const Matrix& orbit) {
+  constexpr double little = 0.1;  // 0.35 of a sine
+  return apart < little * ranges(orbit, frame.scale).cwiseQuotient(frame.scale).norm();
+}
+
 }  // namespace
 
 Vector range_on(const OrbitFrame& frame, const Eigen::Ref<const Matrix>& orbit) {
@@ -118,8 +124,9 @@ double OrbitProblem::apart(const Vector& u, const Regime& regime) const {
 
 void OrbitProblem::note_apart(const Vector& u, const Regime& regime) {
   const OrbitFrame& at = frame(regime);
-  if (at.apart.size() > 0 && is_nearly_simpler(u, regime))
-    most_apart_ = std::max(most_apart_, length(at, part_apart(at.mesh, orbit(u))));
+  if (at.apart.size() == 0) return;
+  const double here = length(at, part_apart(at.mesh, orbit(u)));
+  if (is_little(at, here, orbit(u))) most_apart_ = std::max(most_apart_, here);
 }
 
 double OrbitProblem::apart_grip(const Vector& u, const Regime& regime) const {
@@ -130,10 +137,8 @@ double OrbitProblem::apart_grip(const Vector& u, const Regime& regime) const {
 }
 
 bool OrbitProblem::is_nearly_simpler(const Vector& u, const Regime& regime) const {
-  constexpr double little = 0.1;  // 0.35 of a sine
   const OrbitFrame& at = frame(regime);
-  return length(at, part_apart(at.mesh, orbit(u))) <
-         little * ranges(orbit(u), at.scale).cwiseQuotient(at.scale).norm();
+  return is_little(at, length(at, part_apart(at.mesh, orbit(u))), orbit(u));
 }
 
 double OrbitProblem::rounding_apart(const Vector& u, const Regime& regime) const {

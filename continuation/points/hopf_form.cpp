@@ -217,12 +217,11 @@ std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, dou
   const ComplexVector mean = matrix->solve(a, 0, second(-1, q).real().cast<Complex>());
   const ComplexVector higher = -matrix->solve(a, Complex(0, 2 * omega), second(1, q));
 
-  const auto cubed = [&](std::size_t i) -> const Vector& { return along[i].cube; };
-  const Vector mixed = (cubed(2) + cubed(3) - 2 * cubed(0)) / 6;  // C(Re, Im, Im)
-  const Vector other = (cubed(2) - cubed(3) - 2 * cubed(1)) / 6;  // C(Re, Re, Im)
-  ComplexVector cube(q.size());                                   // C(q, q, q*)
-  cube.real() = cubed(0) + mixed;
-  cube.imag() = cubed(1) + other;
+  const Vector mixed = (along[2].cube + along[3].cube - 2 * along[0].cube) / 6;  // C(Re, Im, Im)
+  const Vector other = (along[2].cube - along[3].cube - 2 * along[1].cube) / 6;  // C(Re, Re, Im)
+  ComplexVector cube(q.size());                                                  // C(q, q, q*)
+  cube.real() = along[0].cube + mixed;
+  cube.imag() = along[1].cube + other;
   const Complex cubic = p.dot(cube);
   const Complex by_mean = p.dot(second(1, mean));
   const Complex by_second = p.dot(second(-1, higher));
