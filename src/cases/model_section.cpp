@@ -163,11 +163,16 @@ void read_cycle(FormulaSystem& system, const TomlSection& section) {
   if (system.cycle.empty()) section.mismatch("cycle", "an array with at least one piece");
 }
 
+/// Whether a system is of one of these kinds.
+auto of_kinds(std::vector<FormulaKind> kinds) {
+  return [kinds = std::move(kinds)](const FormulaSystem& system, const TomlSection&) {
+    return std::find(kinds.begin(), kinds.end(), system.kind) != kinds.end();
+  };
+}
+
 /// Of what is put together of pieces.
 std::vector<ModelKey> piecewise_keys() {
-  const auto of_pieces = only(
-      "only of kind = \"piecewise\"",
-      [](const FormulaSystem& system, const TomlSection&) { return system.kind == FormulaKind::piecewise; });
+  const auto of_pieces = only("only of kind = \"piecewise\"", of_kinds({FormulaKind::piecewise}));
   return {
       ModelKey::special("pieces", "table of tables",
                         "by name, in the order in which they follow each other, each with `until`, a "
@@ -192,9 +197,7 @@ void read_angles(FormulaSystem& system, const TomlSection& section) {
 
 /// What conditions are on, and they.
 std::vector<ModelKey> boundary_keys() {
-  const auto of_boundary = only(
-      "only of kind = \"boundary\"",
-      [](const FormulaSystem& system, const TomlSection&) { return system.kind == FormulaKind::boundary; });
+  const auto of_boundary = only("only of kind = \"boundary\"", of_kinds({FormulaKind::boundary}));
   return {ModelKey::special(
               "interval", "table of two numbers or formulas",
               "what the equations are differentiated by, and its ends, by parameters: { x = [0, 1] }",
@@ -217,20 +220,10 @@ std::vector<ModelKey> boundary_keys() {
 }
 
 const KeyTable<FormulaSystem>& model_keys() {
-  const auto is_map = [](const FormulaSystem& system, const TomlSection&) {
-    return system.kind == FormulaKind::map;
-  };
-  const auto may_be_forced = [](const FormulaSystem& system, const TomlSection&) {
-    return system.kind == FormulaKind::forced || system.kind == FormulaKind::piecewise;
-  };
-  const auto is_flow = [](const FormulaSystem& system, const TomlSection&) {
-    return system.kind == FormulaKind::flow || system.kind == FormulaKind::forced ||
-           system.kind == FormulaKind::piecewise;
-  };
-  const auto has_points = [](const FormulaSystem& system, const TomlSection&) {
-    return system.kind == FormulaKind::flow || system.kind == FormulaKind::map ||
-           system.kind == FormulaKind::algebraic;
-  };
+  const auto is_map = of_kinds({FormulaKind::map});
+  const auto may_be_forced = of_kinds({FormulaKind::forced, FormulaKind::piecewise});
+  const auto is_flow = of_kinds({FormulaKind::flow, FormulaKind::forced, FormulaKind::piecewise});
+  const auto has_points = of_kinds({FormulaKind::flow, FormulaKind::map, FormulaKind::algebraic});
   static const KeyTable<FormulaSystem> keys{
       {ModelKey::choice(
            "kind", &FormulaSystem::kind,
