@@ -217,6 +217,7 @@ bool Tracer::find_events() {
   if (!step.is_tiny(step.distance) && image_.has_gone_over(there.unknowns, there.tangent, there.scale))
     return false;
   watch_.look(there, corrector_.jacobian_at(there));
+  looks_to_end_ = watch_.looks();
   EventSearch search = find_first_events(stepper_, watch_, state_.signs);
   events_ = std::move(search.events);
   if (!search.solved) return false;
@@ -258,7 +259,7 @@ void Tracer::take() {
   targets_.keep_taken(value(), options_.tolerances.same_value * parameter_scale());
   if (whole) state_.distance *= factor;
   signs_before_ = state_.signs;
-  watch_.look(stepper_.here());
+  if (!whole || watch_.looks() != looks_to_end_) watch_.look(stepper_.here());
   watch_.keep(state_.last_chord);
   update(state_.signs, stepper_, watch_, !events_.empty());
   if (closing_) {

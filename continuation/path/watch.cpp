@@ -31,6 +31,7 @@ Watch::Watch(const Problem& problem, const std::vector<UserEvent>& events)
 }
 
 void Watch::look(const CurvePoint& point, const std::optional<FactoredJacobian>& jacobian) {
+  ++looks_;
   functions_.clear();
   if (jacobian && (spectral_ || !tests_.empty()))
     problem_.take_jacobian(point.unknowns, point.parameters, point.regime, *jacobian);

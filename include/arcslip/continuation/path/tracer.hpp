@@ -101,6 +101,7 @@ class Tracer {
   std::vector<double> first_taken_;
   std::optional<double> closing_;
   std::vector<Event> events_;
+  long looks_to_end_ = 0;                 // of the watch, when it had looked at the end of the step
   Signs signs_before_;                    // the step last taken
   std::map<Regime, int> seen_in_regime_;  // regular points so far
   bool singular_seen_ = false;

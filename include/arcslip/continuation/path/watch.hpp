@@ -36,6 +36,7 @@ class Watch {
   const ComplexVector& eigenvalues() const { return eigenvalues_; }    ///< by descending real part, or none
   int unstable() const { return unstable_; }                           ///< -1 without eigenvalues
 
+  long looks() const { return looks_; }      ///< how often it looked
   long spectra() const { return spectra_; }  ///< times that eigenvalues were asked for
 
   /// Whether there is nothing to look at.
@@ -74,6 +75,7 @@ class Watch {
   const std::vector<UserEvent>& events_;
   std::vector<PointType> tests_;
   bool spectral_ = true;
+  long looks_ = 0;
   long spectra_ = 0;
   Vector values_;
   std::vector<double> functions_;
