@@ -8,7 +8,9 @@
 
 #include "arcslip/continuation/curves/extremum_curve.hpp"
 #include "arcslip/continuation/curves/half_curve.hpp"
+#include "arcslip/continuation/curves/orbit_curve.hpp"
 #include "arcslip/continuation/cycles/end_of_kind.hpp"
+#include "arcslip/continuation/cycles/mesh_watch.hpp"
 #include "arcslip/continuation/points/border_problem.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 #include "arcslip/continuation/points/extremum_problem.hpp"
@@ -69,10 +71,11 @@ void settle(const ExtendedProblem& problem, const std::string& parameter, Branch
 }
 
 Branch begin_half(ExtendedProblem& problem, const Guess& start, bool towards_to, const TraceOptions& options,
-                  const Observer& observer) {
+                  const OrbitOptions& orbits, const Observer& observer) {
   if (!problem.adapt(problem.split(start.unknowns, start.parameters, start.regime))) return {};
-  return trace_part(problem, start, towards_to, options, observer,
-                    [&](Branch& half) { settle(problem, options.parameter, half); });
+  return trace_part(
+      problem, start, towards_to, options, observer,
+      [&](Branch& half) { settle(problem, options.parameter, half); }, {}, orbits);
 }
 
 /// By how much an observable is above the value of a level.
@@ -176,50 +179,123 @@ CurveStart curve_at(const Level& level, const Problem& base, const std::string& 
           {point.unknowns, point.parameters, point.regime, {}}};
 }
 
-Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const TraceOptions& options,
-                   const CurveWindow& window, const Observer& observer) {
-  if (problem.extremum_of()) return told(trace_extrema(problem, start, options, window, observer), window);
-  const long before = problem.evaluations();
-  const auto located = locate(problem, start, options.tolerance);
-  const long to_locate = problem.evaluations() - before;
-  if (!located) {
-    Branch none;
-    none.explanation = "no special point of this kind was found next to the start";
-    return none;
-  }
-  Guess guess;
-  problem.join(located->point, guess.unknowns, guess.parameters);
-  guess.regime = start.regime;
+namespace {
 
+/// From where it begins along its direction, or through a special point both ways.
+Branch trace_from(ExtendedProblem& problem, const BasePoint& start, const Vector& direction,
+                  const TraceOptions& options, const CurveWindow& window, const OrbitOptions& orbits,
+                  const Observer& observer) {
+  const long before = problem.evaluations();
+  Guess guess{{}, {}, start.regime, direction};
+  problem.join(start, guess.unknowns, guess.parameters);
+  if (direction.size() == 0) {
+    const auto located = locate(problem, start, options.tolerance);
+    if (!located) {
+      Branch none;
+      none.explanation = "no special point of this kind was found next to the start";
+      return none;
+    }
+    problem.join(located->point, guess.unknowns, guess.parameters);
+  }
+  const long to_locate = problem.evaluations() - before;
   const TraceOptions all = bounded(problem, options, window, guess.unknowns, guess.regime);
   const TimeBudget time(all);
-  Branch curve = trace_parts([&] { return begin_half(problem, guess, true, all, observer); },
-                             [&] { return begin_half(problem, guess, false, time.rest(), observer); }, guess);
+  const auto ahead = [&] { return begin_half(problem, guess, true, all, orbits, observer); };
+  const auto back = [&] { return begin_half(problem, guess, false, time.rest(), orbits, observer); };
+  Branch curve = direction.size() > 0 ? ahead() : trace_parts(ahead, back, guess);
   curve.work.evaluations += to_locate;
   return told(most_telling(std::move(curve)), window);
 }
 
+/// On twice as many intervals.
+OrbitCurveStart finer(const OrbitCurveStart& start) {
+  const BasePoint& at = start.point;
+  OrbitStart orbit = refined({start.orbits, {at.unknowns, at.parameters, at.regime, start.direction}},
+                             2 * start.orbits->resolution());
+  const Guess& guess = orbit.guess;
+  return {std::move(orbit.problem),
+          start.make,
+          {guess.unknowns, guess.parameters, guess.regime, at.extras},
+          guess.direction};
+}
+
+}  // namespace
+
+Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const TraceOptions& options,
+                   const CurveWindow& window, const Observer& observer, const OrbitOptions& orbits) {
+  if (problem.extremum_of()) return told(trace_extrema(problem, start, options, window, observer), window);
+  return trace_from(problem, start, {}, options, window, with_these_intervals(orbits), observer);
+}
+
+OrbitCurveStart orbit_curve_through(const OrbitProblem& orbits, const std::string& active,
+                                    const BranchPoint& point) {
+  CurveStart start = curve_through(orbits, active, point);
+  const auto make = [active, type = point.type](const OrbitProblem& others, const BasePoint& at) {
+    BranchPoint there;
+    there.type = type;
+    there.unknowns = at.unknowns;
+    there.parameters = at.parameters;
+    there.regime = at.regime;
+    return curve_through(others, active, there).problem;
+  };
+  start.point.regime = {};
+  return {orbits.about(orbits.frame(point.regime).mesh, orbits.orbit(point.unknowns), point.parameters),
+          make,
+          std::move(start.point),
+          {}};
+}
+
+Curve trace_orbit_curve(const OrbitCurveStart& start, const TraceOptions& options, const CurveWindow& window,
+                        const OrbitOptions& orbits, const Observer& observer) {
+  const TimeBudget time(options);
+  OrbitCurveStart at = start;
+  while (true) {
+    Curve curve{at.orbits, at.make(*at.orbits, at.point), {}};
+    try {
+      curve.branch =
+          trace_from(*curve.problem, at.point, at.direction, time.rest(), window, orbits, observer);
+      return curve;
+    } catch (const TooCoarse&) {
+      at = finer(at);
+    }
+  }
+}
+
+Curve trace_curve_through(std::shared_ptr<const Problem> base, const std::string& active,
+                          const BranchPoint& point, const std::string& observable,
+                          const TraceOptions& options, const CurveWindow& window, const OrbitOptions& orbits,
+                          const Observer& observer) {
+  if (const auto* of_orbits = dynamic_cast<const OrbitProblem*>(base.get()))
+    return trace_orbit_curve(orbit_curve_through(*of_orbits, active, point), options, window, orbits,
+                             observer);
+  CurveStart start = curve_through(*base, active, point, observable);
+  Branch branch = trace_curve(*start.problem, start.point, options, window, observer);
+  return {std::move(base), std::move(start.problem), std::move(branch)};
+}
+
 Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const TraceOptions& options,
-              const Observer& observer) {
+              const Observer& observer, const OrbitOptions& orbits) {
   const auto& as_branch = static_cast<const Problem&>(problem);
   if (!checkpoint.of)
     throw std::invalid_argument(
         "resume: the checkpoint was written by a version that keeps no curve's window");
   if (!checkpoint.window) return resume(as_branch, checkpoint, options, observer);
   const TimeBudget time(bounded(problem, options, checkpoint));
+  const OrbitOptions fixed = with_these_intervals(orbits);
   const auto go_on = [&](const Progress& progress) {
     problem.set_borders(progress.borders);
     Checkpoint half;
     half.of = checkpoint.of;
     half.ahead = progress;
-    Branch rest = follow_curve(problem, observer, [&](const Observer& follow) {
-      return resume(as_branch, half, time.rest(), follow);
-    });
+    Branch rest = follow_curve(problem, time.rest(), fixed, observer,
+                               [&](const TraceOptions& own, const Observer& follow) {
+                                 return resume(as_branch, half, own, follow);
+                               });
     settle(problem, options.parameter, rest);
     return rest;
   };
   const auto begin_back = [&](const Guess& guess) {
-    return begin_half(problem, guess, false, time.rest(), observer);
+    return begin_half(problem, guess, false, time.rest(), fixed, observer);
   };
   return told(most_telling(resume_parts(checkpoint, go_on, begin_back)), *checkpoint.window);
 }

@@ -149,8 +149,9 @@ Branch ExtremumTracer::piece(ExtendedProblem& problem, const Guess& from, bool t
   const auto ended = [&](Branch& part) {
     if (near_) part.stop = Stop::requested;  // to the journal it is whole
   };
-  Branch part = trace_part(problem, from, towards_to, options, watch, ended,
-                           [&](const BranchPoint& point) { near_ = sees(point); });
+  Branch part = trace_part(
+      problem, from, towards_to, options, watch, ended,
+      [&](const BranchPoint& point) { near_ = sees(point); }, with_these_intervals());
   if (near_) part.stop = Stop::interrupted;
   return part;
 }

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "arcslip/continuation/cycles/growth_watch.hpp"
+#include "arcslip/continuation/cycles/mesh_watch.hpp"
 #include "arcslip/continuation/path/journal.hpp"
 
 namespace arcslip::continuation {
@@ -21,8 +24,11 @@ TraceOptions within_window(const TraceOptions& options, const CurveWindow& windo
   return all;
 }
 
-Branch follow_curve(ExtendedProblem& problem, const Observer& observer,
-                    const std::function<Branch(const Observer& follow)>& trace) {
+namespace {
+
+/// One part, on the meshes that there are.
+Branch follow_borders(ExtendedProblem& problem, const Observer& observer,
+                      const std::function<Branch(const Observer& follow)>& trace) {
   // Those at the last point: a step that was not brought to its end may have changed them.
   std::vector<double> borders = problem.borders();
   const auto follow = [&](const BranchPoint& point) {
@@ -51,36 +57,77 @@ Branch follow_curve(ExtendedProblem& problem, const Observer& observer,
   return part;
 }
 
-Branch trace_part(ExtendedProblem& problem, const Guess& start, bool towards_to, const TraceOptions& options,
-                  const Observer& observer, const std::function<void(Branch&)>& ended,
-                  const std::function<void(const BranchPoint&)>& again) {
+}  // namespace
+
+Branch follow_curve(ExtendedProblem& problem, const TraceOptions& options, const OrbitOptions& orbits,
+                    const Observer& observer,
+                    const std::function<Branch(const TraceOptions& own, const Observer& follow)>& trace) {
   TraceOptions own = options;
   own.journal = nullptr;
+  const auto* of = dynamic_cast<const OrbitProblem*>(&problem.base());
+  if (of == nullptr)
+    return follow_borders(problem, observer, [&](const Observer& follow) { return trace(own, follow); });
+  MeshWatch meshes(*of, orbits, &problem);
+  GrowthWatch growth(*of, options.parameter, orbits.tolerance);
+  bool told = false;
+  bool worn = false;
+  bool grows = false;
+  const Observer watching = [&](const BranchPoint& point) {
+    told = observer && !observer(point);
+    worn = !meshes.serves(point);
+    grows = !growth.goes_on(problem.split(point.unknowns, point.parameters, point.regime));
+    return !told && !worn && !grows;
+  };
+  const TimeBudget time(own);
+  Branch part = follow_borders(problem, watching, [&](const Observer& follow) { return trace(own, follow); });
+  while (part.stop == Stop::interrupted && std::exchange(worn, false) && !told && !grows) {
+    if (!meshes.renew(part, own)) {
+      meshes.give_up(part, own.parameter);
+      return part;
+    }
+    own.max_seconds = time.rest().max_seconds;
+    const long before = part.work.evaluations;
+    part = follow_borders(problem, watching, [&](const Observer& follow) {
+      return go_on_with(problem, std::move(part), own, follow);
+    });
+    part.work.evaluations += before;
+  }
+  if (part.stop == Stop::interrupted && grows && !told) growth.end(part);
+  return part;
+}
+
+Branch trace_part(ExtendedProblem& problem, const Guess& start, bool towards_to, const TraceOptions& options,
+                  const Observer& observer, const std::function<void(Branch&)>& ended,
+                  const std::function<void(const BranchPoint&)>& again, const OrbitOptions& orbits) {
   bool is_known = true;
   const auto see_again = [&](const Branch& known) {
     if (again) std::for_each(known.points.begin(), known.points.end(), again);
   };
-  const auto followed = [&](const std::function<Branch(const Observer& follow)>& trace) {
+  using Trace = std::function<Branch(const TraceOptions& own, const Observer& follow)>;
+  const auto followed = [&](const Trace& trace) {
     is_known = false;
-    JournalEntry entry{follow_curve(problem, observer, trace), {}};
+    JournalEntry entry{follow_curve(problem, options, orbits, observer, trace), {}};
     ended(entry.branch);
     entry.borders = problem.borders();
     return entry;
   };
   const auto begin = [&] {
-    return followed(
-        [&](const Observer& follow) { return trace_one_way(problem, start, towards_to, own, follow); });
+    return followed([&](const TraceOptions& own, const Observer& follow) {
+      return trace_one_way(problem, start, towards_to, own, follow);
+    });
   };
   const auto go_on = [&](JournalEntry begun) {
     see_again(begun.branch);
     problem.set_borders(begun.branch.checkpoint->ahead->borders);
     const long before = begun.branch.work.evaluations;
-    JournalEntry entry = followed(
-        [&](const Observer& follow) { return go_on_with(problem, std::move(begun.branch), own, follow); });
+    JournalEntry entry = followed([&](const TraceOptions& own, const Observer& follow) {
+      return go_on_with(problem, std::move(begun.branch), own, follow);
+    });
     entry.branch.work.evaluations += before;
     return entry;
   };
-  if (options.journal == nullptr) return begin().branch;
+  const bool is_kept = dynamic_cast<const OrbitProblem*>(&problem.base()) == nullptr;
+  if (options.journal == nullptr || !is_kept) return begin().branch;
   JournalEntry entry = options.journal->next(begin, go_on);
   if (is_known) see_again(entry.branch);
   problem.set_borders(entry.borders);

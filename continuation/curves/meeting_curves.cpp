@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "arcslip/continuation/cycles/doubling_problem.hpp"
+#include "arcslip/continuation/cycles/torus_problem.hpp"
 #include "arcslip/continuation/linear/borders.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 #include "arcslip/continuation/points/fold_problem.hpp"
@@ -25,11 +27,41 @@ bool is_kept_branch_point(const ExtendedProblem& curve, const BasePoint& at) {
          std::abs(located->point.parameters(curve.active()) - parameter) <= there * (1 + std::abs(parameter));
 }
 
+template <class Special>
+MultiplierCurve curve_of(Index active, const Vector& extras) {
+  return {[active](const Problem& base) { return std::make_unique<Special>(base, active); }, extras};
+}
+
 }  // namespace
+
+std::optional<MultiplierCurve> multiplier_curve_meeting(const ExtendedProblem& curve, PointType type) {
+  const bool is_of_folds = dynamic_cast<const FoldProblem*>(&curve) != nullptr;
+  const bool is_of_doublings = dynamic_cast<const DoublingProblem*>(&curve) != nullptr;
+  const bool is_of_tori = dynamic_cast<const TorusProblem*>(&curve) != nullptr;
+  const Index active = curve.active();
+  const auto of_tori = [&](double kappa) {
+    return curve_of<TorusProblem>(active, Vector::Constant(1, kappa));
+  };
+  if (!is_of_folds && !is_of_doublings && !is_of_tori) return std::nullopt;
+  switch (type) {
+    case PointType::fold_flip:
+      return is_of_folds ? curve_of<DoublingProblem>(active, {}) : curve_of<FoldProblem>(active, {});
+    case PointType::resonance_1_1: return is_of_tori ? curve_of<FoldProblem>(active, {}) : of_tori(1);
+    case PointType::resonance_1_2: return is_of_tori ? curve_of<DoublingProblem>(active, {}) : of_tori(-1);
+    default: return std::nullopt;
+  }
+}
 
 CurveStart curve_meeting(const ExtendedProblem& curve, const BranchPoint& point) {
   const BasePoint at = curve.split(point.unknowns, point.parameters, point.regime);
   CurveStart start{nullptr, {at.unknowns, at.parameters, at.regime, {}}};
+  if (curve.base().has_multipliers()) {
+    if (const auto other = multiplier_curve_meeting(curve, point.type)) {
+      start.problem = other->make(curve.base());
+      start.point.extras = other->extras;
+    }
+    return start;
+  }
   const bool is_of_hopf = dynamic_cast<const HopfProblem*>(&curve) != nullptr;
   const bool is_of_folds = dynamic_cast<const FoldProblem*>(&curve) != nullptr;
   const bool meets_folds = point.type == PointType::bogdanov_takens || point.type == PointType::zero_hopf;

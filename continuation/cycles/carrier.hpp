@@ -3,11 +3,9 @@
 // Solutions of one mesh on another.
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "arcslip/continuation/cycles/orbit_problem.hpp"
-#include "arcslip/continuation/path/corrector.hpp"
 #include "arcslip/zero_between.hpp"
 
 namespace arcslip::continuation {
@@ -45,22 +43,6 @@ class Carrier {
     }
   }
 
-  /// A point with its tangent, corrected where that can be done.
-  bool carry(Corrector& corrector, CurvePoint& point) const {
-    const Vector raw = (*this)(point.tangent.cwiseProduct(point.scale));
-    point.unknowns = (*this)(point.unknowns);
-    point.regime = regime_;
-    corrector.set_scale(point);
-    point.tangent = raw.cwiseQuotient(point.scale).normalized();
-    const CurvePoint origin = point;
-    if (corrector.correct(point, origin, origin.tangent, 0, true) != Correction::converged) {
-      point = origin;
-      return false;
-    }
-    corrector.set_tangent(point, origin);
-    return true;
-  }
-
  private:
   Vector turned(const Vector& all, double turn) const {
     Vector result = all;
@@ -70,12 +52,10 @@ class Carrier {
       carried = from_.carried(orbit, to_);
       return result;
     }
-    Vector value;
-    for (Index node = 0; node < to_.nodes(); ++node) {
-      const double s = to_.place(node) + turn;
-      from_.at(orbit, s - std::floor(s), value, nullptr);
-      carried.col(node) = value + std::floor(s) * (orbit.rightCols(1) - orbit.col(0));
-    }
+    const Vector s = to_.places().array() + turn;
+    const Vector rounds = s.array().floor();
+    carried = from_.at(orbit, from_.find(s - rounds));
+    carried += (orbit.rightCols(1) - orbit.col(0)) * rounds.transpose();
     return result;
   }
 

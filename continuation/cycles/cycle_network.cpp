@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "arcslip/continuation/cycles/cycle_branch.hpp"
+#include "arcslip/continuation/cycles/orbit_observables.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "orbit_mark.hpp"
 
@@ -19,7 +20,7 @@ struct Mark {
 /// What is looked for on cycles: extrema of what these have, whereas those of equilibria are others.
 TraceOptions of_cycles(const Field& field, const TraceOptions& given) {
   TraceOptions options = unwatched(given);
-  std::vector<std::string> known{"T", "norm"};
+  std::vector<std::string> known{duration_name(field.names(), field.parameter_names()), "norm"};
   for (const std::string& name : field.names()) known.insert(known.end(), {name + "_max", name + "_min"});
   for (const std::string& name : given.extrema_of) {
     if (std::find(known.begin(), known.end(), name) != known.end()) options.extrema_of.push_back(name);

@@ -18,22 +18,11 @@ CycleProblem::CycleProblem(std::shared_ptr<const Field> field, const OrbitMesh& 
 }
 
 /// What its halves differ by, halved: of this nothing is left at an equilibrium, either.
-Matrix CycleProblem::part_apart(const OrbitMesh& mesh, const Matrix& orbit) const {
+Matrix CycleProblem::part_apart(const OrbitFrame& frame, const Eigen::Ref<const Matrix>& orbit) const {
   if (!has_duration() && periods_ % 2 != 0) return {};
-  const CollocationRule& rule = mesh.rule();
-  const Index m = rule.degree();
-  Matrix part(orbit.rows(), m * mesh.intervals());
-  Vector there;
-  for (Index j = 0; j < mesh.intervals(); ++j) {
-    for (Index i = 0; i < m; ++i) {
-      const double s = mesh.borders()(j) + mesh.length(j) * rule.points()(i);
-      const double other = s < 0.5 ? s + 0.5 : s - 0.5;
-      mesh.at(orbit, other, there, nullptr);
-      part.col(j * m + i) = 0.5 * (orbit.middleCols(j * m, m + 1) * rule.values().row(i).transpose() - there +
-                                   (other - s) * winding_);
-    }
-  }
-  return part;
+  Matrix part = frame.mesh.at(orbit, frame.points) - frame.mesh.at(orbit, frame.opposite);
+  part += winding_ * (frame.opposite.s - frame.points.s).transpose();
+  return 0.5 * part;
 }
 
 std::shared_ptr<CycleProblem> CycleProblem::on_intervals(const Vector& u, const Vector& p,
@@ -103,7 +92,7 @@ bool CycleProblem::find_velocities(const Vector& u, const Vector& p, Matrix& out
 }
 
 std::vector<Observable> CycleProblem::observables() const {
-  std::vector<Observable> all{{"T", true}};
+  std::vector<Observable> all{{duration_name(field().names(), parameter_names()), true}};
   for (const Observable& one : orbit_observables(*this)) all.push_back(one);
   return all;
 }

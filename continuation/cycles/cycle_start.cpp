@@ -14,9 +14,7 @@
 namespace arcslip::continuation {
 namespace {
 
-// Of the scale: how far the first orbit of a branch is from what it leaves, and that which sets the first
-// frame.
-constexpr double first = 1e-3;
+// Of the scale: how far that orbit is from what a branch leaves which sets its first frame.
 constexpr double shape = 1e-2;
 
 // How far from the imaginary axis, relative to the largest eigenvalue, one is at a Hopf point.
@@ -27,9 +25,11 @@ Matrix in_units(const Matrix& change, const Vector& scale) {
   return change / change.cwiseQuotient(scale.replicate(1, change.cols())).cwiseAbs().maxCoeff();
 }
 
-/// The cycle that leaves an equilibrium with the motion of an eigenvector q.
-CycleStart small_cycle(const std::shared_ptr<const Field>& field, const Guess& hopf, const ComplexVector& q,
-                       double omega, const CycleOptions& options) {
+/// The cycle that leaves an equilibrium with the motion of an eigenvector q; w q + its conjugate, if a size
+/// |w| is given, but by no more than part of the scale.
+SmallCycle small_cycle(const std::shared_ptr<const Field>& field, const Guess& hopf, const ComplexVector& q,
+                       double omega, const std::optional<double>& size, const CycleOptions& options) {
+  constexpr double farthest = 0.3;  // of the scale
   const Index n = field->size();
   Vector scale(n);
   Vector unused(hopf.parameters.size());
@@ -40,12 +40,15 @@ CycleStart small_cycle(const std::shared_ptr<const Field>& field, const Guess& h
     motion.col(node) = (q * std::polar(1.0, two_pi * mesh.place(node))).real();
   motion.rightCols(1) = motion.col(0);
   motion = in_units(motion, scale);
+  const double of_unit = 2 * q.cwiseAbs().cwiseQuotient(scale).maxCoeff() / q.norm();
+  const double far = size ? std::min(*size * of_unit, farthest) : first_departure;
   const Matrix still = hopf.unknowns.replicate(1, mesh.nodes());
-  CycleStart start = cycle_from_orbit(field, mesh, still + shape * motion, two_pi / omega, hopf.parameters);
-  start.guess.unknowns.head(still.size()) = (still + first * motion).reshaped();
+  CycleStart start = cycle_from_orbit(field, mesh, still + std::max(shape, 2 * far) * motion, two_pi / omega,
+                                      hopf.parameters);
+  start.guess.unknowns.head(still.size()) = (still + far * motion).reshaped();
   start.guess.direction.setZero(start.guess.unknowns.size() + 1);
   start.guess.direction.head(motion.size()) = motion.reshaped();
-  return start;
+  return {std::move(start), far / of_unit};
 }
 
 }  // namespace
@@ -56,10 +59,18 @@ CycleStart cycle_from_orbit(std::shared_ptr<const Field> field, const OrbitMesh&
   return {problem, start_from(problem, orbit, duration, p).guess};
 }
 
-std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& field, const Guess& hopf,
-                                         const CycleOptions& options) {
-  const Index n = field->size();
-  const bool is_sparse = field->sparse();
+namespace {
+
+/// The pairs of eigenvalues, each by the one with a positive imaginary part.
+struct Pairs {
+  ComplexVector values;
+  ComplexMatrix vectors;
+  std::vector<Index> places;
+};
+
+Pairs pairs_at(const Field& field, const Guess& hopf) {
+  const Index n = field.size();
+  const bool is_sparse = field.sparse();
   Matrix jacobian(is_sparse ? 0 : n, n);
   SparseMatrix sparse_jacobian;
   FieldValues wanted;
@@ -68,36 +79,54 @@ std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& fie
   } else {
     wanted.by_unknowns = &jacobian;
   }
-  if (field->is_periodic() || !field->evaluate(0, hopf.unknowns, hopf.parameters, wanted))
+  if (field.is_periodic() || !field.evaluate(0, hopf.unknowns, hopf.parameters, wanted))
     throw std::invalid_argument("cycles_from_hopf: no equilibrium");
-  ComplexMatrix vectors;
-  const ComplexVector values = is_sparse
-                                   ? nearest_eigenvalues(sparse_jacobian, eigenvalues_looked_at, &vectors)
-                                   : eigenvalues(jacobian, &vectors);
-  std::vector<Index> pairs;
-  for (Index i = 0; i < values.size(); ++i) {
-    if (values(i).imag() > 0) pairs.push_back(i);
+  Pairs pairs;
+  pairs.values = is_sparse ? nearest_eigenvalues(sparse_jacobian, eigenvalues_looked_at, &pairs.vectors)
+                           : eigenvalues(jacobian, &pairs.vectors);
+  for (Index i = 0; i < pairs.values.size(); ++i) {
+    if (pairs.values(i).imag() > 0) pairs.places.push_back(i);
   }
-  if (pairs.empty()) throw std::invalid_argument("cycles_from_hopf: no pair of eigenvalues is complex");
-  const auto off_axis = [&](Index i) { return std::abs(values(i).real()); };
-  std::sort(pairs.begin(), pairs.end(), [&](Index i, Index j) { return off_axis(i) < off_axis(j); });
-  const double on_axis = off_axis(pairs.front()) + located * values.cwiseAbs().maxCoeff();
+  if (pairs.places.empty())
+    throw std::invalid_argument("cycles_from_hopf: no pair of eigenvalues is complex");
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& field, const Guess& hopf,
+                                         const CycleOptions& options) {
+  Pairs pairs = pairs_at(*field, hopf);
+  const auto off_axis = [&](Index i) { return std::abs(pairs.values(i).real()); };
+  std::sort(pairs.places.begin(), pairs.places.end(),
+            [&](Index i, Index j) { return off_axis(i) < off_axis(j); });
+  const double on_axis = off_axis(pairs.places.front()) + located * pairs.values.cwiseAbs().maxCoeff();
   std::vector<CycleStart> starts;
-  for (const Index i : pairs) {
+  for (const Index i : pairs.places) {
     if (off_axis(i) <= on_axis)
-      starts.push_back(small_cycle(field, hopf, vectors.col(i), values(i).imag(), options));
+      starts.push_back(
+          small_cycle(field, hopf, pairs.vectors.col(i), pairs.values(i).imag(), {}, options).start);
   }
   return starts;
 }
 
+SmallCycle cycle_of_pair(const std::shared_ptr<const Field>& field, const Guess& hopf, double omega,
+                         const std::optional<double>& size, const CycleOptions& options) {
+  const Pairs pairs = pairs_at(*field, hopf);
+  const auto away = [&](Index i) { return std::abs(pairs.values(i) - Complex(0, omega)); };
+  const Index nearest = *std::min_element(pairs.places.begin(), pairs.places.end(),
+                                          [&](Index i, Index j) { return away(i) < away(j); });
+  return small_cycle(field, hopf, pairs.vectors.col(nearest), pairs.values(nearest).imag(), size, options);
+}
+
 std::optional<OrbitStart> orbit_from_doubling(const PeriodicOrbit& problem, Index parameter,
-                                              const BranchPoint& doubling) {
+                                              const BranchPoint& doubling, double far) {
   if (problem.is_trigonometric()) {
     BranchPoint there = doubling;
     there.regime = {};
     const auto same = dynamic_cast<const CycleProblem&>(problem).on_intervals(
         doubling.unknowns, doubling.parameters, doubling.regime, there.unknowns);
-    const auto start = orbit_from_doubling(*same, parameter, there);
+    const auto start = orbit_from_doubling(*same, parameter, there, far);
     if (!start) return std::nullopt;
     const OrbitMesh mesh(CollocationRule::trigonometric(static_cast<int>(2 * problem.resolution())), 1);
     return refined(*start, [&](const Matrix& /*orbit*/) { return mesh; });
@@ -111,10 +140,10 @@ std::optional<OrbitStart> orbit_from_doubling(const PeriodicOrbit& problem, Inde
   const Matrix once = in_units(problem.orbit(conditions.right_null()), frame.scale);
   const Matrix change = problem.two_rounds(once, -1);
   const Matrix both = problem.two_rounds(problem.orbit(at.unknowns), 1);
-  OrbitStart start =
-      start_from(problem.doubled(problem.mesh_of_two(frame.mesh), both + shape * change, at.parameters), both,
-                 2 * problem.duration(at.unknowns, at.parameters), at.parameters);
-  start.guess.unknowns.head(both.size()) = (both + first * change).reshaped();
+  OrbitStart start = start_from(problem.doubled(problem.mesh_of_two(frame.mesh),
+                                                both + std::max(shape, 2 * far) * change, at.parameters),
+                                both, 2 * problem.duration(at.unknowns, at.parameters), at.parameters);
+  start.guess.unknowns.head(both.size()) = (both + far * change).reshaped();
   start.guess.direction.setZero(start.guess.unknowns.size() + 1);
   start.guess.direction.head(change.size()) = change.reshaped();
   return start;

@@ -18,7 +18,7 @@ void end_with_kind(const OrbitProblem& orbits, TraceOptions& options, double beg
   // Of what there was: nearer to it orbits are hard to tell from others.
   constexpr double nothing = 1e-3;
   // Growth rates of cycles of size r, and rounding in them, go with r^2, and so does the way of a fold.
-  constexpr double placed = 1e-3;  // of that way: by how much rounding may move a fold
+  constexpr double placed = 1e-4;  // of that way: by how much rounding may move a fold
   const auto least = [=, &orbits](const Vector& u, const Regime& regime) {
     const double rounding = of_folds ? orbits.rounding_apart(u, regime) : 0;
     return std::max(nothing, std::pow(rounding / placed, 0.25));

@@ -52,7 +52,7 @@ double product(const OrbitFrame& frame, const Matrix& a, const Matrix& b) {
 double length(const OrbitFrame& frame, const Matrix& a) { return std::sqrt(product(frame, a, a)); }
 
 /// Whether what keeps an orbit apart is little beside how far it goes.
-bool is_little(const OrbitFrame& frame, double apart, const Matrix& orbit) {
+bool is_little(const OrbitFrame& frame, double apart, const Eigen::Ref<const Matrix>& orbit) {
   constexpr double little = 0.1;  // 0.35 of a sine
   return apart < little * ranges(orbit, frame.scale).cwiseQuotient(frame.scale).norm();
 }
@@ -83,16 +83,19 @@ Regime OrbitProblem::last_frame() const {
   return regime;
 }
 
-Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const Vector& p) {
+Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const Vector& p) const {
   constexpr double hardly = 1e-4;  // of how far the unknowns go: what keeps an orbit apart is more
   Vector scale(orbit.rows());
   Vector unused(p.size());
   field_->scale(orbit.cwiseAbs().rowwise().maxCoeff(), p, scale, unused);
-  OrbitFrame frame{mesh, scale, scale.cwiseInverse(), {}, ranges(orbit, scale), {}, 0, {}};
+  OrbitFrame frame{mesh, scale, scale.cwiseInverse(), {}, ranges(orbit, scale), {}, 0, {}, {}, {}};
+  const Vector s = mesh.gauss_points();
+  frame.points = mesh.find(s);
+  frame.opposite = mesh.find((s.array() < 0.5).select(s.array() + 0.5, s.array() - 0.5));
   frame.ends = end_scale(frame, orbit, p);
   if (has_duration_) frame.phase = phase_weights(mesh, orbit, scale);
   if (has_duration_) frame.phase_value = frame.phase.dot(orbit.reshaped());
-  frame.apart = part_apart(mesh, orbit);
+  frame.apart = part_apart(frame, orbit);
   most_apart_ = std::max(most_apart_, length(frame, frame.apart));
   if (!(most_apart_ > hardly * frame.range.cwiseQuotient(scale).norm())) frame.apart.resize(0, 0);
   frames_.push_back(std::make_shared<const OrbitFrame>(std::move(frame)));
@@ -118,33 +121,28 @@ Vector OrbitProblem::end_scale(const OrbitFrame& frame, const Matrix& orbit, con
 double OrbitProblem::apart(const Vector& u, const Regime& regime) const {
   const OrbitFrame& at = frame(regime);
   if (at.apart.size() == 0) return 1;
-  const Matrix part = part_apart(at.mesh, orbit(u));
+  const Matrix part = part_apart(at, orbit(u));
   return std::copysign(length(at, part), product(at, part, at.apart)) / most_apart_;
 }
 
-void OrbitProblem::note_apart(const Vector& u, const Regime& regime) {
-  const OrbitFrame& at = frame(regime);
-  if (at.apart.size() == 0) return;
-  const double here = length(at, part_apart(at.mesh, orbit(u)));
-  if (is_little(at, here, orbit(u))) most_apart_ = std::max(most_apart_, here);
-}
-
-double OrbitProblem::apart_grip(const Vector& u, const Regime& regime) const {
+double OrbitProblem::note_apart(const Vector& u, const Regime& regime) const {
   const OrbitFrame& at = frame(regime);
   if (at.apart.size() == 0) return 1;
-  const Matrix part = part_apart(at.mesh, orbit(u));
-  return product(at, part, at.apart) / (length(at, part) * length(at, at.apart));
+  const Matrix part = part_apart(at, orbit(u));
+  const double here = length(at, part);
+  if (is_little(at, here, orbit(u))) most_apart_ = std::max(most_apart_, here);
+  return product(at, part, at.apart) / (here * length(at, at.apart));
 }
 
 bool OrbitProblem::is_nearly_simpler(const Vector& u, const Regime& regime) const {
   const OrbitFrame& at = frame(regime);
-  return is_little(at, length(at, part_apart(at.mesh, orbit(u))), orbit(u));
+  return is_little(at, length(at, part_apart(at, orbit(u))), orbit(u));
 }
 
 double OrbitProblem::rounding_apart(const Vector& u, const Regime& regime) const {
   const OrbitFrame& at = frame(regime);
   const double size = (at.in_units.asDiagonal() * orbit(u)).cwiseAbs().maxCoeff();
-  return std::numeric_limits<double>::epsilon() * size / length(at, part_apart(at.mesh, orbit(u)));
+  return std::numeric_limits<double>::epsilon() * size / length(at, part_apart(at, orbit(u)));
 }
 
 std::string OrbitProblem::describe(const Regime& regime) const {

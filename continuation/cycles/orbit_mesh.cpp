@@ -5,7 +5,7 @@
 
 namespace arcslip::continuation {
 
-Vector ranges(const Matrix& orbit, const Vector& scale) {
+Vector ranges(const Eigen::Ref<const Matrix>& orbit, const Vector& scale) {
   constexpr double least = 1e-3;
   constexpr double at_rest = 1e-7;  // of the scale: of less a millionth is rounding
   const Vector range = (orbit.rowwise().maxCoeff() - orbit.rowwise().minCoeff()).cwiseQuotient(scale);
@@ -16,6 +16,12 @@ Vector ranges(const Matrix& orbit, const Vector& scale) {
 double OrbitMesh::place(Index node) const {
   const Index j = std::min(node / rule_.degree(), intervals() - 1);
   return borders_(j) + length(j) * rule_.nodes()(node - j * rule_.degree());
+}
+
+Vector OrbitMesh::places() const {
+  Vector s(nodes());
+  for (Index node = 0; node < s.size(); ++node) s(node) = place(node);
+  return s;
 }
 
 Index OrbitMesh::interval(double s) const {
@@ -33,13 +39,46 @@ void OrbitMesh::at(const Matrix& values, double s, Vector& value, Vector* veloci
   if (velocity != nullptr) velocity->noalias() = within * (slopes / length(j));
 }
 
-Matrix OrbitMesh::carried(const Matrix& values, const OrbitMesh& to) const {
-  Matrix result(values.rows(), to.nodes());
-  Vector value;
-  for (Index node = 0; node < to.nodes(); ++node) {
-    at(values, to.place(node), value, nullptr);
-    result.col(node) = value;
+Vector OrbitMesh::gauss_points() const {
+  const Index m = rule_.degree();
+  Vector s(m * intervals());
+  for (Index j = 0; j < intervals(); ++j)
+    s.segment(j * m, m) = borders_(j) + length(j) * rule_.points().array();
+  return s;
+}
+
+OrbitPlaces OrbitMesh::find(const Vector& s) const {
+  OrbitPlaces places{s, {}, Matrix(rule_.degree() + 1, s.size())};
+  Vector weights;
+  Vector slopes;
+  for (Index k = 0; k < s.size(); ++k) {
+    const Index j = interval(s(k));
+    rule_.at((s(k) - borders_(j)) / length(j), weights, slopes);
+    places.weights.col(k) = weights;
+    places.first.push_back(j * rule_.degree());
   }
+  return places;
+}
+
+Matrix OrbitMesh::at(const Eigen::Ref<const Matrix>& values, const OrbitPlaces& places) const {
+  const Index n = values.rows();
+  const Index stride = values.outerStride();
+  const Index count = places.weights.rows();
+  Matrix result(n, places.weights.cols());
+  for (Index k = 0; k < result.cols(); ++k) {
+    const double* const weights = places.weights.col(k).data();
+    const double* const nodes = values.col(places.first[static_cast<std::size_t>(k)]).data();
+    for (Index r = 0; r < n; ++r) {
+      double sum = 0;
+      for (Index l = 0; l < count; ++l) sum += weights[l] * nodes[l * stride + r];
+      result(r, k) = sum;
+    }
+  }
+  return result;
+}
+
+Matrix OrbitMesh::carried(const Matrix& values, const OrbitMesh& to) const {
+  Matrix result = at(values, find(to.places()));
   result.col(0) = values.col(0);
   result.rightCols(1) = values.rightCols(1);
   return result;
@@ -47,7 +86,7 @@ Matrix OrbitMesh::carried(const Matrix& values, const OrbitMesh& to) const {
 
 /// Of order m + 1 on each interval, in units of the scale: by how the m-th jumps at its ends, an orbit being
 /// periodic or not: a jump across the ends counts as the one beside it does.
-Vector OrbitMesh::highest_derivatives(const Matrix& values, const Vector& scale) const {
+Vector OrbitMesh::highest_derivatives(const Eigen::Ref<const Matrix>& values, const Vector& scale) const {
   const Index m = rule_.degree();
   const Index count = intervals();
   Matrix of_degree(values.rows(), count);
@@ -65,7 +104,7 @@ Vector OrbitMesh::highest_derivatives(const Matrix& values, const Vector& scale)
   return at_borders.head(count).cwiseMax(at_borders.tail(count));
 }
 
-Vector OrbitMesh::errors(const Matrix& values, const Vector& scale) const {
+Vector OrbitMesh::errors(const Eigen::Ref<const Matrix>& values, const Vector& scale) const {
   if (const Index waves = rule_.waves(); waves > 0) {
     const Index last = std::min(std::max<Index>(1, waves - 1), std::max<Index>(3, waves / 6));
     const Matrix coefficients = rule_.coefficients(values).rightCols(2 * last);

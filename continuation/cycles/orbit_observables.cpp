@@ -91,6 +91,14 @@ Index shown(const OrbitProblem& problem) { return problem.field().sparse() ? 0 :
 
 }  // namespace
 
+std::string duration_name(const std::vector<std::string>& unknowns,
+                          const std::vector<std::string>& parameters) {
+  const auto has_one = [](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), "T") != names.end();
+  };
+  return has_one(unknowns) || has_one(parameters) ? "period" : "T";
+}
+
 std::vector<Observable> orbit_observables(const OrbitProblem& problem) {
   std::vector<Observable> all;
   const std::vector<std::string> names = problem.field().names();

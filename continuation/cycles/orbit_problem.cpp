@@ -33,9 +33,7 @@ double OrbitProblem::duration(const Vector& u, const Vector& p, Vector* by_param
 }
 
 Vector OrbitProblem::times(const Vector& u, const Vector& p, const Regime& regime) const {
-  Vector result(nodes());
-  for (Index node = 0; node < result.size(); ++node) result(node) = frame(regime).mesh.place(node);
-  return result * duration(u, p);
+  return frame(regime).mesh.places() * duration(u, p);
 }
 
 /// Of each interval and unknown four points at a time, by the weights of each node for these.

@@ -107,21 +107,16 @@ std::shared_ptr<OrbitProblem> PiecewiseCycle::doubled(const OrbitMesh& mesh, con
 }
 
 /// Of a doubled one half of what tells both of its rounds apart.
-Matrix PiecewiseCycle::part_apart(const OrbitMesh& mesh, const Matrix& orbit) const {
+Matrix PiecewiseCycle::part_apart(const OrbitFrame& frame, const Eigen::Ref<const Matrix>& orbit) const {
   if (!doubled_) return {};
-  const CollocationRule& rule = mesh.rule();
   const Index half = count_ / 2;
   const Vector turn = 0.5 * winding_.replicate(half, 1).reshaped();
-  Matrix part(orbit.rows(), rule.degree() * mesh.intervals());
-  Vector here;
-  for (Index j = 0; j < part.cols(); ++j) {
-    const Index interval = j / rule.degree();
-    const double within = rule.points()(j % rule.degree());
-    mesh.at(orbit, mesh.borders()(interval) + mesh.length(interval) * within, here, nullptr);
-    const Vector places = 0.5 * (here.head(n_ * half) - here.segment(n_ * half, n_ * half) + turn);
-    const Vector times = 0.5 * (here.segment(n_ * count_, half) - here.tail(half));
-    part.col(j) << places, -places, times, -times;
-  }
+  const Matrix here = frame.mesh.at(orbit, frame.points);
+  Matrix places = 0.5 * (here.topRows(n_ * half) - here.middleRows(n_ * half, n_ * half));
+  places.colwise() += 0.5 * turn;
+  const Matrix times = 0.5 * (here.middleRows(n_ * count_, half) - here.bottomRows(half));
+  Matrix part(here.rows(), here.cols());
+  part << places, -places, times, -times;
   return part;
 }
 
@@ -293,7 +288,7 @@ double PiecewiseCycle::early_meeting(const Vector& u, const Vector& p, const Reg
 }
 
 std::vector<Observable> PiecewiseCycle::observables() const {
-  std::vector<Observable> all{{"T", true}};
+  std::vector<Observable> all{{duration_name(told_names(), parameter_names()), true}};
   for (const std::string& piece : pieces_->piece_names()) all.push_back({"T_" + piece, true});
   for (const std::string& name : told_names()) {
     all.push_back({name + "_max", true});

@@ -12,7 +12,7 @@
 #include "arcslip/cases/runs.hpp"
 #include "arcslip/cases/study_case.hpp"
 #include "arcslip/continuation/atlas/atlas.hpp"
-#include "arcslip/continuation/curves/curve.hpp"
+#include "arcslip/continuation/curves/orbit_curve.hpp"
 #include "arcslip/continuation/path/all_solutions.hpp"
 #include "arcslip/continuation/path/checkpoint.hpp"
 #include "arcslip/continuation/path/interpolation.hpp"

@@ -106,6 +106,7 @@ KINDS = {
     "isola_centre": ("isola centre", "*", 5.4, True),
     "simple_bifurcation": ("simple bifurcation", "X", 4.0, True),
     "fold_flip": ("fold–flip", "p", 4.2, False),
+    "fold_neimark_sacker": ("fold–Neimark–Sacker", "h", 4.2, False),
     "neimark_sacker": ("Neimark–Sacker", "h", 3.6, True),
     "period_doubling": ("period doubling", "v", 4.0, False),
     "symmetry_breaking": ("symmetry breaking", "d", 4.2, False),

@@ -193,10 +193,11 @@ using BranchKey = Key<CaseBranch>;
 
 const auto not_beside_curve =
     only("not beside curve, which has parameters and a window", is_branch, "not beside curve");
-const auto beside_curves_that_meet =
-    only("beside curve only of \"fold\" or \"hopf\"", [](const CaseBranch& branch, const TomlSection&) {
-      return !branch.curve || branch.curve->name == "fold" || branch.curve->name == "hopf";
-    });
+const auto beside_curves_that_meet = only("beside curve only of \"fold\", \"hopf\" or special cycles",
+                                          [](const CaseBranch& branch, const TomlSection&) {
+                                            return !branch.curve || branch.curve->name == "fold" ||
+                                                   branch.curve->name == "hopf" || branch.curve->of_cycles;
+                                          });
 const auto beside_curve = only("only beside curve or surface", is_curve);
 const auto beside_neither = only("not beside curve", is_no_curve, "not beside curve");
 const auto with_friction = only("only for systems with friction", of_friction);
@@ -281,7 +282,8 @@ std::vector<BranchKey> keys_of_ways() {
   return {BranchKey::flag(
               "switching", &CaseBranch::switching,
               "follow all branches that meet this one, at branch points and corners, and the cycles of "
-              "flows; of curves of folds or Hopf points those that they meet",
+              "flows; of curves of folds, Hopf points and special cycles those that they meet or that begin "
+              "there",
               beside_curves_that_meet),
           BranchKey("start", &CaseBranch::start, {" from `from` to `to`", rule_of_range},
                     "trace both ways from this value", not_beside_curve),

@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <typeinfo>
 
-#include "arcslip/continuation/curves/meeting_curves.hpp"
-#include "arcslip/continuation/cycles/orbit_problem.hpp"
+#include "arcslip/continuation/curves/orbit_curve.hpp"
 #include "arcslip/continuation/path/switching.hpp"
-#include "arcslip/continuation/points/hopf_problem.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
+#include "cases/further_curves.hpp"
 
 namespace arcslip {
 namespace {
@@ -24,11 +22,6 @@ using continuation::ExtendedProblem;
 using continuation::PointType;
 using continuation::TimeBudget;
 using Clock = std::chrono::steady_clock;
-
-/// Whether two vectors are one but for how well points are located.
-bool same_place(const Vector& a, const Vector& b) {
-  return ((a - b).array().abs() <= 1e-6 * (1 + b.array().abs())).all();
-}
 
 /// Whether solutions are one: of orbits, which may be told on different meshes, by what is observed of them.
 bool same_solution(const continuation::Problem& a, const BasePoint& at, const continuation::Problem& b,
@@ -89,32 +82,6 @@ bool is_seed(const CurveRequest& asked, const continuation::Problem& problem, co
   return !asked.is_backbone() || (above(*(&point - 1)) < 0) == (asked.from < asked.to);
 }
 
-/// Whether a curve is of points of the same kind as another, and passes a point of the base.
-bool is_known(const TracedBranch& curve, const ExtendedProblem& kind, const BasePoint& at) {
-  const ExtendedProblem& own = *curve.curve;
-  const bool same_kind = typeid(own) == typeid(kind);
-  return same_kind &&
-         std::any_of(curve.branch.points.begin(), curve.branch.points.end(), [&](const BranchPoint& point) {
-           const BasePoint here = curve.curve->split(point.unknowns, point.parameters, point.regime);
-           const bool same_pair =
-               kind.size() - kind.base().size() < 2 ||
-               std::abs(here.extras(0) - at.extras(0)) <= 1e-5 * (1 + std::abs(at.extras(0)));
-           return same_pair && same_place(here.parameters, at.parameters) &&
-                  same_place(here.unknowns, at.unknowns);
-         });
-}
-
-/// Of a curve of Hopf points the part that is one: from a Bogdanov-Takens point on the other way are neutral
-/// saddles.
-void keep_hopf_points(TracedBranch& curve) {
-  const auto* hopf = dynamic_cast<const continuation::HopfProblem*>(curve.curve.get());
-  if (hopf == nullptr) return;
-  constexpr double rounding = 1e-6;
-  std::erase_if(curve.branch.points, [&](const BranchPoint& point) {
-    return hopf->split(point.unknowns, point.parameters, point.regime).extras(0) < -rounding;
-  });
-}
-
 }  // namespace
 
 TracedBranch unstarted(const Request& request, const Subject& subject, const std::string& why) {
@@ -126,54 +93,29 @@ TracedBranch unstarted(const Request& request, const Subject& subject, const std
 
 namespace {
 
-/// Moves a start on a special point beside it, so that this is passed as others are: of Hopf points to the
-/// side where they are ones.
-void put_beside(ExtendedProblem& problem, Index second, const continuation::TraceOptions& options,
-                BasePoint& at) {
-  constexpr double beside = 1e-3;
-  const double middle = 0.5 * (options.from + options.to);
-  const double inwards = at.parameters(second) < middle ? 1 : -1;
-  for (const double way : {inwards, -inwards}) {
-    BasePoint there = at;
-    there.parameters(second) += way * beside * std::abs(options.to - options.from);
-    const auto located = continuation::locate(problem, there, options.tolerance);
-    if (!located) continue;
-    if (dynamic_cast<const continuation::HopfProblem*>(&problem) != nullptr &&
-        !(located->point.extras(0) > 0))
-      continue;
-    at = located->point;
-    return;
+/// The curve through a special point of a branch.
+TracedBranch trace_through(const Request& request, const TracedBranch& seeds, const BranchPoint& seed,
+                           const std::string& observable, const continuation::TraceOptions& options,
+                           const continuation::Observer& observer) {
+  const CurveRequest& asked = *request->curve;
+  const continuation::OrbitOptions& orbits = request->cycles.options;
+  const Clock::time_point begun = Clock::now();
+  TracedBranch traced{request, seeds.base, nullptr, {}, 0};
+  if (asked.level) {
+    continuation::CurveStart start =
+        continuation::curve_at(*asked.level, *seeds.base.problem, asked.active, seed);
+    traced.branch =
+        continuation::trace_curve(*start.problem, start.point, options, asked.window, observer, orbits);
+    traced.curve = std::move(start.problem);
+  } else {
+    continuation::Curve curve = continuation::trace_curve_through(
+        seeds.base.problem, asked.active, seed, observable, options, asked.window, orbits, observer);
+    traced.base.problem = std::move(curve.base);
+    traced.curve = std::move(curve.problem);
+    traced.branch = std::move(curve.branch);
   }
-}
-
-/// Adds the curves that these meet, and so on.
-void follow_meeting(const Request& request, continuation::TraceOptions options, const TimeBudget& time,
-                    const continuation::Observer& observer, std::vector<TracedBranch>& curves) {
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    const std::vector<BranchPoint> points = curves[i].branch.points;
-    for (const BranchPoint& point : points) {
-      if (!time.goes_on()) return;
-      continuation::CurveStart start = continuation::curve_meeting(*curves[i].curve, point);
-      if (start.problem == nullptr) continue;
-      const std::shared_ptr<ExtendedProblem> problem = std::move(start.problem);
-      const auto known = [&](const TracedBranch& curve) { return is_known(curve, *problem, start.point); };
-      if (std::any_of(curves.begin(), curves.end(), known)) continue;
-      const Index second =
-          continuation::index_of(curves[i].base.problem->parameter_names(), options.parameter);
-      if (curves.size() >= options.max_branches)
-        return curves.back().branch.warn(
-            continuation::more_branches(curves.size(), options.parameter, start.point.parameters(second)));
-      put_beside(*problem, second, options, start.point);
-      const Clock::time_point begun = Clock::now();
-      options.max_seconds = time.rest().max_seconds;
-      TracedBranch met{
-          request, curves[i].base, problem,
-          continuation::trace_curve(*problem, start.point, options, request->curve->window, observer), 0};
-      keep_hopf_points(met);
-      met.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-      curves.push_back(std::move(met));
-    }
-  }
+  traced.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+  return traced;
 }
 
 }  // namespace
@@ -197,19 +139,12 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
         return passes(curve, problem, seed, options.parameter);
       };
       if (std::any_of(curves.begin(), curves.end(), known)) continue;
-      continuation::CurveStart start =
-          asked.level ? continuation::curve_at(*asked.level, problem, asked.active, seed)
-                      : continuation::curve_through(problem, asked.active, seed, observable);
-      const std::shared_ptr<continuation::ExtendedProblem> curve = std::move(start.problem);
-      const Clock::time_point begun = Clock::now();
       options.max_seconds = time.rest().max_seconds;
-      Branch branch = continuation::trace_curve(*curve, start.point, options, asked.window, observer);
-      const std::chrono::duration<double> seconds = Clock::now() - begun;
-      is_left = is_unfinished(branch.stop);
-      curves.push_back({request, seeds.base, curve, std::move(branch), seconds.count()});
+      curves.push_back(trace_through(request, seeds, seed, observable, options, observer));
+      is_left = is_unfinished(curves.back().branch.stop);
     }
   }
-  if (request->switching) follow_meeting(request, options, time, observer, curves);
+  if (request->switching) follow_curves(options, asked.window, time, observer, curves);
   for (TracedBranch& curve : curves) {
     for (BranchPoint& point : curve.branch.points) {
       if (point.type == PointType::user && !is_listed(point, curve)) point.type = PointType::regular;

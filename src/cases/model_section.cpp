@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "arcslip/continuation/cycles/orbit_observables.hpp"
 #include "arcslip/problems/formulas/formula_problem.hpp"
 
 namespace arcslip {
@@ -278,15 +279,21 @@ const KeyTable<FormulaSystem>& model_keys() {
 bool may_have_cycles(const FormulaSystem& system, const TomlDocument& document) {
   if (system.kind == FormulaKind::forced || system.kind == FormulaKind::piecewise) return true;
   const auto given = [&](const char* place) { return document.root().at_path(place); };
-  const bool leaves_hopf_points = given("branch.switching").value_or(false) && !given("branch.curve");
-  return system.kind == FormulaKind::flow && (given("cycles.settle") || leaves_hopf_points);
+  return system.kind == FormulaKind::flow &&
+         (given("cycles.settle") || given("branch.switching").value_or(false));
 }
 
 /// Refuses what columns of cycles are called.
 void check_cycle_names(const FormulaSystem& system) {
-  std::set<std::string> columns{"T", "norm"};
-  for (const Formula& equation : system.equations)
+  std::vector<std::string> unknowns;
+  std::vector<std::string> parameters;
+  std::set<std::string> columns{"norm"};
+  for (const FormulaParameter& parameter : system.parameters) parameters.push_back(parameter.name);
+  for (const Formula& equation : system.equations) {
+    unknowns.push_back(equation.name);
     columns.insert({equation.name + "_max", equation.name + "_min"});
+  }
+  columns.insert(continuation::duration_name(unknowns, parameters));
   const auto check = [&](const std::string& name, const std::string& place) {
     if (columns.contains(name))
       throw FormulaError(place,

@@ -269,7 +269,7 @@ TEST_CASE("Wrong input for models of the library and for curves is refused") {
        "looked for at lambda = 1, which is not between 2 and 3", ""},
       {"from = -1", "from = -1\nstart = 1", ":9:9", "branch.start", "not beside curve", ""},
       {"curve = \"fold\"", "curve = \"branch_point\"\nswitching = true", ":6:13", "branch.switching",
-       "beside curve only of \"fold\" or \"hopf\"", ""},
+       "beside curve only of \"fold\", \"hopf\" or special cycles", ""},
       {"from = -1", "from = -1\nparameter = \"mu\"", ":9:13", "branch.parameter", "not beside curve", ""},
       {"\"fold\"", "\"peak\"", ":4:", "branch.extrema_of", "missing; expected the one observable", ""},
       {"\"fold\"", "\"fold\"\nextrema_of = [\"x\"]", ":6:14", "branch.extrema_of",

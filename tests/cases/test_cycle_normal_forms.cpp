@@ -12,7 +12,7 @@ using namespace arcslip::testing;
 }  // namespace
 
 TEST_CASE("Points of codimension two have their normal forms in summaries", "[cycles]") {
-  const Run run("lorenz84_fold_curve", {"branch.switching=true"});
+  const Run run("lorenz84_fold_curve", {"branch.switching=true", "continuation.max_branches=3"});
   const nlohmann::ordered_json summary = summarize(run.input, run.traced, 0);
   int takens = 0, bautin = 0, double_hopf = 0;
   for (const auto& branch : summary["branches"]) {

@@ -8,17 +8,6 @@ namespace {
 using namespace arcslip;
 using namespace arcslip::testing;
 
-/// A round cycle, of which r is at rest where `radial` vanishes, with a pair (u, v) beside it that grows by
-/// `grow` along (cos t/2, sin t/2), of which Z is the part, and decays across it.
-std::string flipping_pair(const std::string& radial, const std::string& grow, const std::string& rest) {
-  return "[model.definitions]\nr = \"sqrt(x^2 + y^2)\"\ncc = \"(1 + x/r)/2\"\nss = \"(1 - x/r)/2\"\ncs = "
-         "\"y/r/2\"\nZZ = \"u^2*cc + 2*u*v*cs + v^2*ss\"\nradial = \"" +
-         radial + "\"\ngrow = \"" + grow +
-         "\"\nzc = \"u*cc + v*cs\"\nzs = \"u*cs + v*ss\"\n[model.equations]\nx = \"x*radial - y\"\ny = "
-         "\"y*radial + x\"\nu = \"grow*zc - (u - zc) - v/2\"\nv = \"grow*zs - (v - zs) + u/2\"\n" +
-         rest;
-}
-
 std::vector<double> at(const std::vector<TracedBranch>& all, PointType type, const std::string& name) {
   return all_values_at(all, type, name);
 }

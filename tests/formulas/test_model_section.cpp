@@ -270,7 +270,7 @@ TEST_CASE("Mistakes in formulas are told on one line, with their place in the fi
     check_message(error_in(replaced(brusselator, mistake.from, mistake.to)), mistake);
   CHECK(error_in(brusselator, {"model.equations.x=\"A - q\""}) ==
         "--set: model.equations.x: unknown name \"q\" at column 5 of \"A - q\"; there are x, y, B, A");
-  for (const std::string name : {"T", "norm", "x_max", "y_min"}) {  // of columns of cycles
+  for (const std::string name : {"norm", "x_max", "y_min"}) {  // of columns of cycles
     const std::string named = replaced(brusselator, "A = 1", "A = 1\n" + name + " = 1");
     CHECK(error_in(named) == "no error");
     CHECK(error_in(replaced(named, "to = 4", "to = 4\nswitching = true")) ==

@@ -165,3 +165,31 @@ def test_pieces_have_branches_that_leave_them_and_curves():
     assert abs(once["w"][doubling] - curve["w"][0]) < 1e-8 and min(curve["r"]) < 0.6
     (single,) = arcslip.trace_cycles(wall, parameter="w", range=(2.8, 1.9), settle=400, follow=False)
     assert len(single) == len(once)
+
+
+def only(branch, kind):
+    (point,) = [point for point in branch.special if point["type"] == kind]
+    return point
+
+
+def test_switch_leads_to_cycles_and_to_curves_of_these():
+    grows = "(mu + b*(x^2 + y^2) - (x^2 + y^2)^2)"
+    model = arcslip.Model({"x": f"{grows}*x - y", "y": f"x + {grows}*y"}, {"mu": -1, "b": 1})
+    rest = arcslip.trace(model, parameter="mu", range=(-1, 1))
+    hopf = only(rest, "hopf")
+    (cycles,) = rest.switch(hopf)
+    assert only(cycles, "fold")["mu"] == pytest.approx(-0.25, abs=1e-9)
+    curve = rest.continue_in_two(hopf, "b", (-2, 2), window=(-1, 1))
+    (folds,) = curve.switch(only(curve, "generalized_hopf"), window=(-1, 1))
+    assert folds["mu"] == pytest.approx(-(folds["b"] ** 2) / 4, abs=1e-9)
+    assert folds["b"][-1] == 2
+
+
+def test_switch_leads_to_cycles_of_twice_the_period():
+    model = arcslip.Model({"x": "-y - z", "y": "x + 0.2*y", "z": "0.2 + z*(x - c)"}, {"c": 2.5}, start={"x": 1})
+    (once,) = arcslip.trace_cycles(model, parameter="c", range=(2.5, 3), settle=400, follow=False)
+    doubling = only(once, "period_doubling")
+    (twice,) = once.switch(doubling)
+    assert twice["T"][-1] == pytest.approx(2 * once["T"][-1], rel=0.02)
+    again = once.start_from(doubling, range=(2.5, 3.2))
+    assert again["c"][-1] == 3.2

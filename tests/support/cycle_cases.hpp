@@ -60,4 +60,16 @@ inline std::string circles(const std::string& g, const std::string& turn, const 
          turn + "\"\n[model.equations]\nx = \"g*x - turn*y\"\ny = \"turn*x + g*y\"\n" + rest;
 }
 
+/// A round cycle, of which r is at rest where `radial` vanishes, with a pair (u, v) beside it that grows by
+/// `grow` along (cos t/2, sin t/2), of which Z is the part, and decays across it.
+inline std::string flipping_pair(const std::string& radial, const std::string& grow,
+                                 const std::string& rest) {
+  return "[model.definitions]\nr = \"sqrt(x^2 + y^2)\"\ncc = \"(1 + x/r)/2\"\nss = \"(1 - x/r)/2\"\ncs = "
+         "\"y/r/2\"\nZZ = \"u^2*cc + 2*u*v*cs + v^2*ss\"\nradial = \"" +
+         radial + "\"\ngrow = \"" + grow +
+         "\"\nzc = \"u*cc + v*cs\"\nzs = \"u*cs + v*ss\"\n[model.equations]\nx = \"x*radial - y\"\ny = "
+         "\"y*radial + x\"\nu = \"grow*zc - (u - zc) - v/2\"\nv = \"grow*zs - (v - zs) + u/2\"\n" +
+         rest;
+}
+
 }  // namespace arcslip::testing

@@ -316,7 +316,12 @@ class Branch(_Columns):
         **options: Any,
     ) -> Branch: ...
     def switch(
-        self, point: int | Mapping[str, Any], *, progress: _Progress | None = None, **options: Any
+        self,
+        point: int | Mapping[str, Any],
+        *,
+        window: tuple[float, float] | None = None,
+        progress: _Progress | None = None,
+        **options: Any,
     ) -> list[Branch]: ...
     def continue_in_two(
         self,

@@ -287,13 +287,17 @@ class Branch(_Columns):
         (core,) = _core.start_from(self._core, self._row(point), forward, options, progress)
         return self._further(core)
 
-    def switch(self, point, *, progress=None, **options):
-        """Trace the other branches that leave a branch point, a switch or a corner.
+    def switch(self, point, *, window=None, progress=None, **options):
+        """Trace the other branches that leave a branch point, a switch or a corner, the cycles that leave a Hopf
+        point or a period doubling; of a curve in two parameters the other curves that meet it at a point of
+        codimension two, or begin there.
 
         Parameters
         ----------
         point : int
             Its row.
+        window : (float, float), optional
+            Of curves: of the first parameter, which is an unknown.
         progress, **options
             As `trace` takes them, in place of those of this branch.
 
@@ -302,7 +306,8 @@ class Branch(_Columns):
         list of Branch
             One for each way; empty where nothing else leaves.
         """
-        return [self._further(core) for core in _core.switch_at(self._core, self._row(point), options, progress)]
+        found = _core.switch_at(self._core, self._row(point), window, options, progress)
+        return [self._further(core) for core in found]
 
     def continue_in_two(self, point, parameter, range, *, window=None, observable="", progress=None, **options):
         """Follow a special point in two parameters: a fold, branch point, Hopf point, peak, trough or switch.

@@ -53,10 +53,13 @@ continuation::OrbitOptions held_on(const py::dict& held) {
 
 template <class OneBranch>
 Handles handles_of(const std::shared_ptr<PythonProblem>& problem, const continuation::TraceOptions& options,
-                   const std::vector<OneBranch>& branches) {
+                   const continuation::OrbitOptions& orbits, const std::vector<OneBranch>& branches) {
   Handles handles;
   for (const OneBranch& one : branches) {
     TracedBranch traced = traced_of(problem, options, one.branch);
+    auto request = std::make_shared<CaseBranch>(*traced.request);
+    request->cycles.options = orbits;
+    traced.request = std::move(request);
     traced.base.problem = one.problem;
     handles.push_back(std::make_shared<BranchHandle>(std::move(traced), problem));
   }
@@ -81,7 +84,7 @@ Handles trace_cycles(const std::shared_ptr<PythonProblem>& problem, const py::ob
     return traced_cycles(field_of(problem, forced), *problem, guess, settle, follow, how == "both", options,
                          cycles, observer);
   });
-  return handles_of(problem, options, branches);
+  return handles_of(problem, options, cycles, branches);
 }
 
 /// The branch of what has orbits alone from its guess, or what motions come to, and, with `follow`, all that
@@ -106,7 +109,7 @@ Handles trace_orbit(const std::shared_ptr<PythonProblem>& problem, const Formula
     if (follow) return trace_connected_orbits(start, options, orbits, observer);
     return std::vector{trace_orbits(start, options, orbits, observer)};
   });
-  return handles_of(problem, options, branches);
+  return handles_of(problem, options, orbits, branches);
 }
 
 /// The orbit of a point: what its times are called, these, unknowns x times, their names.

@@ -6,10 +6,13 @@
 #include <chrono>
 #include <sstream>
 
-#include "arcslip/continuation/curves/curve.hpp"
+#include "arcslip/continuation/curves/orbit_curve.hpp"
+#include "arcslip/continuation/cycles/cycle_branch.hpp"
 #include "arcslip/continuation/path/all_solutions.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/problems/tasks/all_solutions.hpp"
+#include "cases/cycles.hpp"
+#include "cases/further_curves.hpp"
 #include "python/binding/formulas.hpp"
 #include "python/binding/trace_options.hpp"
 #include "python/binding/tracing.hpp"
@@ -20,6 +23,7 @@ namespace {
 using continuation::Branch;
 using continuation::BranchPoint;
 using continuation::Guess;
+using continuation::PointType;
 using continuation::TraceOptions;
 
 /// A further branch of the same problem.
@@ -136,6 +140,21 @@ Handles trace_guesses(const BranchHandle& handle, const std::vector<Guess>& gues
   return handles;
 }
 
+/// Branches of orbits from these, on meshes that follow them.
+Handles trace_starts(const BranchHandle& handle, const std::vector<continuation::OrbitStart>& starts,
+                     TraceOptions& options, const py::object& progress) {
+  Handles handles;
+  for (const continuation::OrbitStart& start : starts) {
+    continuation::OrbitBranch one = in_engine(options, progress, [&](const auto& observer) {
+      return trace_orbits(start, options, handle.traced().request->cycles.options, observer);
+    });
+    TracedBranch traced = beside(handle, options, std::move(one.branch));
+    traced.base.problem = std::move(one.problem);
+    handles.push_back(std::make_shared<BranchHandle>(std::move(traced), handle.problem()));
+  }
+  return handles;
+}
+
 Handles start_from(const BranchHandle& handle, std::size_t point, bool forward, const py::dict& given,
                    const py::object& progress) {
   require_branch(handle, "start_from");
@@ -148,13 +167,66 @@ Handles start_from(const BranchHandle& handle, std::size_t point, bool forward, 
         continuation::index_of(handle.traced().base.problem->parameter_names(), options.parameter));
     if (handle.problem()) handle.problem()->activate(options.parameter);
   }
+  if (const continuation::OrbitProblem* orbits = orbits_of(handle.traced())) {
+    const auto own =
+        orbits->about(orbits->frame(guess.regime).mesh, orbits->orbit(guess.unknowns), guess.parameters);
+    guess.regime = {};
+    return trace_starts(handle, {{own, guess}}, options, progress);
+  }
   return trace_guesses(handle, {guess}, options, progress);
 }
 
-Handles switch_at(const BranchHandle& handle, std::size_t point, const py::dict& given,
+/// Of a branch of orbits, or of equilibria at a Hopf point.
+std::vector<continuation::OrbitStart> orbits_leaving(const BranchHandle& handle, std::size_t row,
+                                                     const TraceOptions& options) {
+  const continuation::BranchPoint& point = handle.point(row);
+  const std::shared_ptr<const continuation::Problem>& base = handle.traced().base.problem;
+  std::vector<continuation::OrbitStart> starts;
+  if (const auto* cycles = cycles_of(handle.traced());
+      cycles != nullptr && point.type == PointType::period_doubling) {
+    const Index parameter = continuation::index_of(base->parameter_names(), options.parameter);
+    if (auto start = orbit_from_doubling(*cycles, parameter, point)) starts.push_back(std::move(*start));
+  } else if (const auto* orbits = orbits_of(handle.traced())) {
+    if (auto start = orbit_from_branch_point(*orbits, options.parameter, point, options.tolerances))
+      starts.push_back(std::move(*start));
+  } else if (point.type == PointType::hopf && may_leave_cycles(*base)) {
+    for (const continuation::CycleStart& start : cycles_from_hopf(
+             std::make_shared<continuation::EquilibriumField>(base),
+             {point.unknowns, point.parameters, point.regime, {}}, handle.traced().request->cycles.options))
+      starts.push_back({start.problem, start.guess, start.both_ways});
+  }
+  return starts;
+}
+
+/// The curves that meet one in two parameters, or begin there.
+Handles switch_curves(const BranchHandle& handle, std::size_t point,
+                      const std::optional<std::pair<double, double>>& window, TraceOptions& options,
+                      const py::object& progress) {
+  const CurveUse alone(handle.curve_flag());
+  const continuation::CurveWindow bounds =
+      window ? continuation::CurveWindow{window->first, window->second} : continuation::CurveWindow{};
+  Handles handles;
+  for (const FurtherCurve& one :
+       handle.heard([&] { return further_curves(handle.traced(), handle.point(point), bounds); })) {
+    TracedBranch found =
+        in_engine(options, progress, [&](const auto& observer) { return one.trace(options, observer); });
+    TracedBranch traced = beside(handle, options, std::move(found.branch));
+    traced.base.problem = std::move(found.base.problem);
+    traced.curve = std::move(found.curve);
+    handles.push_back(std::make_shared<BranchHandle>(std::move(traced), handle.problem()));
+  }
+  return handles;
+}
+
+Handles switch_at(const BranchHandle& handle, std::size_t point,
+                  const std::optional<std::pair<double, double>>& window, const py::dict& given,
                   const py::object& progress) {
-  require_branch(handle, "switch");
   TraceOptions options = options_of(handle, given);
+  if (handle.curve()) return switch_curves(handle, point, window, options, progress);
+  const std::vector<continuation::OrbitStart> orbits =
+      handle.heard([&] { return orbits_leaving(handle, point, options); });
+  if (!orbits.empty() || orbits_of(handle.traced()) != nullptr)
+    return trace_starts(handle, orbits, options, progress);
   const std::vector<Guess> ways = handle.heard([&] {
     return continuation::other_ways(*handle.traced().base.problem, options.parameter, handle.point(point));
   });
@@ -181,14 +253,14 @@ std::shared_ptr<BranchHandle> curve_through(const BranchHandle& handle, std::siz
   if (options.extrema_of.empty()) options.extrema_of = {observable.empty() ? active : observable};
   const continuation::CurveWindow bounds =
       window ? continuation::CurveWindow{window->first, window->second} : continuation::CurveWindow{};
-  std::shared_ptr<continuation::ExtendedProblem> curve;
-  Branch branch = in_engine(options, progress, [&](const auto& observer) {
-    auto start = continuation::curve_through(base, active, handle.point(point), observable);
-    curve = std::move(start.problem);
-    return continuation::trace_curve(*curve, start.point, options, bounds, observer);
+  continuation::Curve curve = in_engine(options, progress, [&](const auto& observer) {
+    return continuation::trace_curve_through(handle.traced().base.problem, active, handle.point(point),
+                                             observable, options, bounds,
+                                             handle.traced().request->cycles.options, observer);
   });
-  TracedBranch traced = beside(handle, options, std::move(branch));
-  traced.curve = curve;
+  TracedBranch traced = beside(handle, options, std::move(curve.branch));
+  traced.base.problem = std::move(curve.base);
+  traced.curve = std::move(curve.problem);
   return std::make_shared<BranchHandle>(std::move(traced), handle.problem());
 }
 
@@ -219,7 +291,8 @@ std::shared_ptr<BranchHandle> resume(const BranchHandle& handle, const py::dict&
   Branch after = in_engine(options, progress, [&](const auto& observer) {
     const continuation::Checkpoint& checkpoint = *handle.branch().checkpoint;
     return handle.curve()
-               ? continuation::resume(*handle.curve(), checkpoint, options, observer)
+               ? continuation::resume(*handle.curve(), checkpoint, options, observer,
+                                      handle.traced().request->cycles.options)
                : continuation::resume(*handle.traced().base.problem, checkpoint, options, observer);
   });
   TracedBranch traced = beside(handle, options, joined(handle.branch(), std::move(after)));

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "arcslip/continuation/cycles/orbit_branch.hpp"
 #include "arcslip/continuation/path/trace.hpp"
 #include "arcslip/continuation/points/extended_problem.hpp"
 
@@ -50,12 +51,14 @@ CurveStart curve_at(const Level& level, const Problem& base, const std::string& 
 /// them are the curve's turning points in `options.parameter` (`fold`, of folds isola_centre or
 /// simple_bifurcation), cusps, Bogdanov-Takens, zero-Hopf and double Hopf points; `options.extrema_of` may
 /// name the active parameter, for the turning points in it. A curve of Hopf points ends at a Bogdanov-Takens
-/// point.
+/// point. Of orbits the meshes follow the curve, of as many intervals as there are: it ends as `no_value`
+/// where these do not suffice, see orbit_curve.hpp.
 Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const TraceOptions& options,
-                   const CurveWindow& window = {}, const Observer& observer = {});
+                   const CurveWindow& window = {}, const Observer& observer = {},
+                   const OrbitOptions& orbits = {});
 
 /// Goes on with a curve as `resume` of trace.hpp does with a branch, within the window that it had.
 Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const TraceOptions& options,
-              const Observer& observer = {});
+              const Observer& observer = {}, const OrbitOptions& orbits = {});
 
 }  // namespace arcslip::continuation

@@ -5,13 +5,24 @@
 // points take the place of those of folds [Yu. A. Kuznetsov, Elements of Applied Bifurcation Theory, 3rd ed.,
 // Springer 2004, chapter 8].
 
+#include <functional>
+
 #include "arcslip/continuation/curves/curve.hpp"
 
 namespace arcslip::continuation {
 
-/// The other curve through a special point of a curve of folds or Hopf points, of the same base; no problem
-/// where there is none. A curve of Hopf points begins at a Bogdanov-Takens point: its part with kappa < 0 is
-/// one of neutral saddles.
+/// The other curve through a special point of a curve of folds or Hopf points, or of one of maps, of the same
+/// base; no problem where there is none. A curve of Hopf points begins at a Bogdanov-Takens point: its part
+/// with kappa < 0 is one of neutral saddles.
 CurveStart curve_meeting(const ExtendedProblem& curve, const BranchPoint& point);
+
+/// The same of special points of cycles and maps, by the problem on any base and the extras to begin with: of
+/// folds and period doublings at fold-flip points, of Neimark-Sacker points and either at `resonance_1_1`
+/// and `resonance_1_2`. None elsewhere.
+struct MultiplierCurve {
+  std::function<std::unique_ptr<ExtendedProblem>(const Problem& base)> make;
+  Vector extras;
+};
+std::optional<MultiplierCurve> multiplier_curve_meeting(const ExtendedProblem& curve, PointType type);
 
 }  // namespace arcslip::continuation

@@ -60,7 +60,9 @@ class BoundaryProblem : public OrbitProblem {
                                     const EndConditions& out) const override {
     return boundary_->end_conditions(left, right, p, out);
   }
-  Matrix part_apart(const OrbitMesh& /*mesh*/, const Matrix& /*orbit*/) const override { return {}; }
+  Matrix part_apart(const OrbitFrame& /*frame*/, const Eigen::Ref<const Matrix>& /*orbit*/) const override {
+    return {};
+  }
   double given_duration(const Vector& p, Vector* by_parameters) const override;
 
  private:

@@ -20,6 +20,17 @@ struct CycleStart {
 std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& field, const Guess& hopf,
                                          const CycleOptions& options = {});
 
+/// A cycle beside an equilibrium: it moves by w q and its conjugate, q an eigenvector of length 1.
+struct SmallCycle {
+  CycleStart start;
+  double size;  ///< |w|
+};
+
+/// The one that leaves an equilibrium with the pair of eigenvalues nearest to +-j omega, of this size unless
+/// that is large.
+SmallCycle cycle_of_pair(const std::shared_ptr<const Field>& field, const Guess& hopf, double omega,
+                         const std::optional<double>& size, const CycleOptions& options = {});
+
 /// A cycle close to an orbit: as its values at nodes tell, ends equal, over a time T.
 CycleStart cycle_from_orbit(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
                             double duration, const Vector& p, int periods = 1);

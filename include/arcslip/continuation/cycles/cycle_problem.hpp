@@ -53,7 +53,7 @@ class CycleProblem : public PeriodicOrbit {
  protected:
   [[nodiscard]] bool end_conditions(const Vector& left, const Vector& right, const Vector& p,
                                     const EndConditions& out) const override;
-  Matrix part_apart(const OrbitMesh& mesh, const Matrix& orbit) const override;
+  Matrix part_apart(const OrbitFrame& frame, const Eigen::Ref<const Matrix>& orbit) const override;
   double given_duration(const Vector& p, Vector* by_parameters) const override;
 
   /// Of sparse fields those of the largest.

@@ -35,15 +35,22 @@ struct OrbitOptions {
 
 using CycleOptions = OrbitOptions;
 
+/// The same for those that keep as many intervals, or waves, as there are.
+inline OrbitOptions with_these_intervals(OrbitOptions orbits = {}) {
+  orbits.most_intervals = 0;
+  orbits.most_waves = 0;
+  return orbits;
+}
+
 /// An orbit to set out from: the guess is one of the problem's.
 struct OrbitStart {
-  std::shared_ptr<OrbitProblem> problem;
+  std::shared_ptr<const OrbitProblem> problem;
   Guess guess;
   bool both_ways = false;  ///< along a direction and against it, or to both ends of the range
 };
 
 /// One close to an orbit: as its values at the nodes of the problem's first frame tell.
-OrbitStart start_from(std::shared_ptr<OrbitProblem> problem, const Matrix& orbit, double duration,
+OrbitStart start_from(std::shared_ptr<const OrbitProblem> problem, const Matrix& orbit, double duration,
                       const Vector& p);
 
 /// The other branch through a branch point; none where it is not found.
@@ -51,9 +58,13 @@ std::optional<OrbitStart> orbit_from_branch_point(const OrbitProblem& problem, c
                                                   const BranchPoint& point,
                                                   const Tolerances& tolerances = {});
 
-/// The orbits of twice the period that leave a period doubling; none where it is not located.
+/// How far the first orbit of a branch is from what it leaves, of the scale.
+inline constexpr double first_departure = 1e-3;
+
+/// The orbits of twice the period that leave a period doubling, from one that is so far from two rounds of
+/// the single one; none where the doubling is not located.
 std::optional<OrbitStart> orbit_from_doubling(const PeriodicOrbit& problem, Index parameter,
-                                              const BranchPoint& doubling);
+                                              const BranchPoint& doubling, double far = first_departure);
 
 /// The same start on a mesh of this resolution, or on one that is made for its orbit, which comes as values
 /// on the mesh before.

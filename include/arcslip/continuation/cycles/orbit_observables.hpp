@@ -7,6 +7,10 @@
 
 namespace arcslip::continuation {
 
+/// What the duration is called among them: `T`, or `period` beside an unknown or a parameter T.
+std::string duration_name(const std::vector<std::string>& unknowns,
+                          const std::vector<std::string>& parameters);
+
 /// Those of the unknowns that the problem tells, in the order above.
 std::vector<Observable> orbit_observables(const OrbitProblem& problem);
 

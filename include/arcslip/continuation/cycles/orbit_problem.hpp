@@ -45,6 +45,8 @@ struct OrbitFrame {
   Vector phase;  ///< n x nodes: weights of the condition that keeps the orbit from sliding along itself; or
                  ///< empty
   double phase_value = 0;  ///< that of the condition for the frame's own orbit
+  OrbitPlaces points;      ///< the Gauss points, m N
+  OrbitPlaces opposite;    ///< those half of the way ahead of these
   Matrix apart;  ///< n x m N, what keeps the orbit apart from simpler ones; empty where nothing does
 };
 
@@ -70,7 +72,7 @@ class OrbitProblem : public Problem {
   /// That of a point, and the regime of a further one, of as many intervals, for orbits like this one: values
   /// at the nodes of `mesh`. Not while others read.
   const OrbitFrame& frame(const Regime& regime) const;
-  Regime add_frame(const OrbitMesh& mesh, const Matrix& orbit, const Vector& p);
+  Regime add_frame(const OrbitMesh& mesh, const Matrix& orbit, const Vector& p) const;
   /// The last one that was added.
   Regime last_frame() const;
 
@@ -128,11 +130,9 @@ class OrbitProblem : public Problem {
   double rounding_apart(const Vector& u, const Regime& regime) const;
 
   /// Takes an orbit that is nearly of a simpler kind into account for the most that there was, as those of
-  /// frames are. Not while others read.
-  void note_apart(const Vector& u, const Regime& regime);
-
-  /// How nearly it is alike to that of the frame: 1 for this, 0 where the sign of `apart` tells nothing.
-  double apart_grip(const Vector& u, const Regime& regime) const;
+  /// frames are, and tells how nearly that part is alike to that of the frame: 1 for this, 0 where the sign
+  /// of `apart` tells nothing. Not while others read.
+  double note_apart(const Vector& u, const Regime& regime) const;
 
   /// du(s_(j+1))/du(s_j) of each interval, n x n, by the Jacobian at an orbit of a field that is not sparse.
   std::vector<Matrix> transfers(const FactoredJacobian& jacobian) const;
@@ -159,9 +159,9 @@ class OrbitProblem : public Problem {
   [[nodiscard]] virtual bool end_conditions(const Vector& left, const Vector& right, const Vector& p,
                                             const EndConditions& out) const = 0;
 
-  /// That part of an orbit, at the Gauss points of its mesh (n x m N), which keeps it apart from orbits of a
+  /// That part of an orbit, at the Gauss points of a frame (n x m N), which keeps it apart from orbits of a
   /// simpler kind; empty where it does not matter.
-  virtual Matrix part_apart(const OrbitMesh& mesh, const Matrix& orbit) const = 0;
+  virtual Matrix part_apart(const OrbitFrame& frame, const Eigen::Ref<const Matrix>& orbit) const = 0;
 
   /// T where it is no unknown.
   virtual double given_duration(const Vector& p, Vector* by_parameters) const = 0;
@@ -200,15 +200,15 @@ class OrbitProblem : public Problem {
 
   std::shared_ptr<const Field> field_;
   bool has_duration_;
-  std::vector<std::shared_ptr<const OrbitFrame>> frames_;
-  SparseMatrix block_;           // df/du and the diagonal, n x n
+  mutable std::vector<std::shared_ptr<const OrbitFrame>> frames_;  // further ones change none that is there
+  SparseMatrix block_;                                             // df/du and the diagonal, n x n
   std::vector<Index> diagonal_;  // where that is in each column of the block
   std::vector<int> places_;      // of the entries of a sparse df/du among those of the block
   Matrix padded_values_;         // the rule's, with rows of zeros that make these a multiple of four,
   Matrix padded_slopes_;         // and its derivatives
   Matrix weights_;               // of the blocks of an interval's points, see fill_blocks, at each node
   SparseMatrix pattern_;
-  double most_apart_ = 0;  // what kept any of the orbits apart
+  mutable double most_apart_ = 0;  // what kept any of the orbits apart
 };
 
 }  // namespace arcslip::continuation

@@ -22,7 +22,9 @@ class FoldProblem : public SingularProblem {
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
   [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
                                  ComplexVector& values) const override;
-  PointType pair_crossing() const override { return PointType::zero_hopf; }
+  PointType pair_crossing() const override {
+    return base().has_multipliers() ? PointType::fold_neimark_sacker : PointType::zero_hopf;
+  }
   PointType turn(const Vector& u, const Vector& p, const Regime& regime) const override;
 
   /// w at the point last evaluated, where `right_null` is v: dF/du v = 0, v of unit length in the problem's

@@ -36,6 +36,7 @@ enum class PointType {
   chenciner,                    ///< the coefficient that tells sub- from supercritical vanishes
   generalized_period_doubling,  ///< the same on a curve of period doublings
   fold_flip,                    ///< multipliers 1 and -1
+  fold_neimark_sacker,          ///< multipliers 1 and a pair of modulus 1
   isola_centre,                 ///< of a curve of folds that turns: a closed branch shrinks to a point
   simple_bifurcation            ///< the same where two branches meet and exchange ends
 };

@@ -1,0 +1,124 @@
+#include "arcslip/continuation/cycles/mesh_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "arcslip/continuation/cycles/cycle_problem.hpp"
+#include "arcslip/continuation/path/corrector.hpp"
+#include "carrier.hpp"
+
+namespace arcslip::continuation {
+
+bool may_be_finer(const OrbitProblem& problem, const OrbitOptions& orbits) {
+  const auto* cycles = dynamic_cast<const CycleProblem*>(&problem);
+  const Index periods = cycles == nullptr ? 1 : cycles->periods();
+  return 2 * problem.resolution() <=
+         (problem.is_trigonometric() ? periods * orbits.most_waves : orbits.most_intervals);
+}
+
+bool MeshWatch::serves(const BranchPoint& point) {
+  constexpr double grip = 0.5;
+  const Vector& u = point.unknowns;  // of which orbits are the first ones, be it on a curve or not
+  const double apart_grip = orbits_.note_apart(u, point.regime);
+  if (point.type == PointType::branch_point) singular_ = point.arclength;
+  if (point.arclength == singular_ || point.type == PointType::event) return true;  // which may be the end
+  return orbits_.mesh_error(u, point.regime) <= options_.tolerance &&
+         orbits_.phase_grip(u, point.regime) > grip && apart_grip > grip;
+}
+
+BasePoint MeshWatch::of_orbits(const CurvePoint& point) const {
+  if (curve_ == nullptr) return {point.unknowns, point.parameters, point.regime, {}};
+  return curve_->split(point.unknowns, point.parameters, point.regime);
+}
+
+/// A frame for an orbit; none where no mesh of this resolution is good enough.
+std::optional<Regime> MeshWatch::renewed(const BasePoint& at) const {
+  // or the next point would ask again; a finer mesh starts all over, which takes long where it is large
+  const double margin = orbits_.field().sparse() ? 0.5 : 0.3;
+  const OrbitFrame& frame = orbits_.frame(at.regime);
+  const Matrix orbit = orbits_.orbit(at.unknowns);
+  const Vector range = range_on(frame, orbit);
+  const OrbitMesh mesh = frame.mesh.equidistributed(orbit, range, orbits_.resolution());
+  const Matrix carried = frame.mesh.carried(orbit, mesh);
+  if (mesh.errors(carried, range).maxCoeff() > margin * options_.tolerance) return std::nullopt;
+  return orbits_.add_frame(mesh, carried, at.parameters);
+}
+
+/// Whether a point has the signs that are known of it.
+bool MeshWatch::agrees(const CurvePoint& point, const Signs& signs) const {
+  const auto differs = [](int known, double value) { return known * sign_of(value) < 0; };
+  if (differs(signs.parameter, point.tangent(point.tangent.size() - 1))) return false;
+  Vector functions(std::ssize(traced().test_types()));
+  traced().test(point.unknowns, point.parameters, point.regime, functions);
+  for (Index i = 0; i < functions.size(); ++i) {
+    if (differs(signs.functions[static_cast<std::size_t>(i)], functions(i))) return false;
+  }
+  ComplexVector eigenvalues;
+  return signs.unstable < 0 ||
+         !traced().eigenvalues(point.unknowns, point.parameters, point.regime, eigenvalues) ||
+         (eigenvalues.real().array() > 0).count() == signs.unstable;
+}
+
+/// Whether a new frame can wait for one more point: signs that are all rounding would put it off for ever.
+bool MeshWatch::can_wait() {
+  constexpr int most = 3;
+  waits_ = waits_ < most ? waits_ + 1 : 0;
+  return waits_ > 0;
+}
+
+/// Chooses what belongs to a point of special orbits, there.
+bool MeshWatch::adapt(const CurvePoint& point) {
+  return curve_ == nullptr || curve_->adapt(of_orbits(point));
+}
+
+/// A point with its tangent in another frame, corrected where that can be done.
+bool MeshWatch::carry(const Carrier& carrier, const Regime& regime, Corrector& corrector, CurvePoint& point) {
+  const Vector raw = carrier(point.tangent.cwiseProduct(point.scale));
+  point.unknowns = carrier(point.unknowns);
+  point.regime = regime;
+  corrector.set_scale(point);
+  point.tangent = raw.cwiseQuotient(point.scale).normalized();
+  const CurvePoint origin = point;
+  if (!adapt(point) || corrector.correct(point, origin, origin.tangent, 0, true) != Correction::converged) {
+    point = origin;
+    return false;
+  }
+  corrector.set_tangent(point, origin);
+  return true;
+}
+
+bool MeshWatch::renew(Branch& branch, const TraceOptions& options) {
+  Progress& progress = *branch.checkpoint->ahead;
+  const Regime before = progress.here.regime;
+  const std::optional<Regime> regime = renewed(of_orbits(progress.here));
+  if (!regime) return false;
+  const Carrier carrier(orbits_, before, *regime);
+  Corrector corrector(traced(), index_of(traced().parameter_names(), options.parameter),
+                      {.tolerance = options.tolerance});
+  const Vector bend = carrier(progress.bend.cwiseProduct(progress.here.scale));
+  CurvePoint here = progress.here;
+  if (!carry(carrier, *regime, corrector, here)) return false;
+  if (curve_ != nullptr) progress.rescaled = 1;
+  if (!agrees(here, progress.signs) && can_wait()) return adapt(progress.here);
+  if (!start_) start_ = progress.start;
+  progress.here = here;
+  progress.bend = bend.cwiseQuotient(progress.here.scale);
+  progress.start = *start_;
+  Carrier of_start(orbits_, progress.start.regime, *regime);
+  of_start.turn_to(progress.start.unknowns, here.unknowns);
+  carry(of_start, *regime, corrector, progress.start);
+  progress.past.clear();
+  return adapt(here);
+}
+
+void MeshWatch::give_up(Branch& branch, const std::string& parameter) const {
+  if (may_be_finer(orbits_, options_)) throw TooCoarse{};
+  branch.stop = Stop::no_value;
+  branch.explanation = fmt::format(
+      "an orbit of {} {} misses more than {:g} of what its unknowns do, at {} = {:.10g}",
+      orbits_.resolution(), orbits_.is_trigonometric() ? "waves" : "intervals", options_.tolerance, parameter,
+      branch.points.back().parameters(index_of(traced().parameter_names(), parameter)));
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,37 @@
+#pragma once
+
+// Where orbits come ever nearer to one that begins and ends on an equilibrium.
+
+#include <limits>
+#include <string>
+
+#include "arcslip/continuation/cycles/orbit_problem.hpp"
+#include "arcslip/continuation/path/branch.hpp"
+#include "arcslip/continuation/points/extended_problem.hpp"
+
+namespace arcslip::continuation {
+
+/// Tells where the period grows while the parameter no longer changes, and the orbit all but rests on its
+/// way. Relaxation oscillations grow as fast, without rest.
+class GrowthWatch {
+ public:
+  /// Of a branch, or curve, over this parameter, of orbits with errors of this size. Kept by reference.
+  GrowthWatch(const OrbitProblem& orbits, const std::string& parameter, double tolerance);
+
+  /// Looks at the next orbit.
+  bool goes_on(const BasePoint& at);
+
+  /// Ends a branch there, with as many digits of the parameter as are known.
+  void end(Branch& branch) const;
+
+ private:
+  const OrbitProblem& orbits_;
+  const std::string& parameter_;
+  double nearly_;  // of the parameter: its distance from its limit falls with e^-T until meshes hide it
+  double value_ = std::numeric_limits<double>::quiet_NaN();
+  double period_ = 0;  // the least at this value
+  double last_period_ = 0;
+  int points_ = 0;  // since then
+};
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,203 @@
+#include "cases/further_curves.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <typeinfo>
+
+#include "arcslip/continuation/curves/cycle_curves.hpp"
+#include "arcslip/continuation/curves/meeting_curves.hpp"
+#include "arcslip/continuation/cycles/torus_problem.hpp"
+#include "arcslip/continuation/path/switching.hpp"
+#include "arcslip/continuation/points/hopf_problem.hpp"
+#include "arcslip/continuation/points/normal_form.hpp"
+#include "cases/cycles.hpp"
+
+namespace arcslip {
+namespace {
+
+using continuation::BasePoint;
+using continuation::BranchPoint;
+using continuation::ExtendedProblem;
+using continuation::OrbitCurveStart;
+using continuation::OrbitProblem;
+using continuation::TraceOptions;
+using Clock = std::chrono::steady_clock;
+
+/// Whether a curve is of points of the same kind as another, and passes a point of the base.
+bool is_known(const TracedBranch& curve, const ExtendedProblem& kind, const BasePoint& at) {
+  const ExtendedProblem& own = *curve.curve;
+  const bool same_kind = typeid(own) == typeid(kind) && own.size() == kind.size();
+  return same_kind &&
+         std::any_of(curve.branch.points.begin(), curve.branch.points.end(), [&](const BranchPoint& point) {
+           const BasePoint here = curve.curve->split(point.unknowns, point.parameters, point.regime);
+           const bool same_pair =
+               kind.size() - kind.base().size() < 2 ||
+               std::abs(here.extras(0) - at.extras(0)) <= 1e-5 * (1 + std::abs(at.extras(0)));
+           return same_pair && same_place(here.parameters, at.parameters) &&
+                  same_place(here.unknowns, at.unknowns);
+         });
+}
+
+/// Of a curve of Hopf points the part that is one: from a Bogdanov-Takens point on the other way are neutral
+/// saddles.
+void keep_hopf_points(TracedBranch& curve) {
+  const auto* hopf = dynamic_cast<const continuation::HopfProblem*>(curve.curve.get());
+  if (hopf == nullptr) return;
+  constexpr double rounding = 1e-6;
+  std::erase_if(curve.branch.points, [&](const BranchPoint& point) {
+    return hopf->split(point.unknowns, point.parameters, point.regime).extras(0) < -rounding;
+  });
+}
+
+/// Whether a pair of eigenvalues is imaginary, or one of multipliers on the unit circle, where that is what
+/// the points are.
+bool is_one(const ExtendedProblem& problem, const BasePoint& at) {
+  if (dynamic_cast<const continuation::HopfProblem*>(&problem) != nullptr) return at.extras(0) > 0;
+  if (dynamic_cast<const continuation::TorusProblem*>(&problem) != nullptr) return std::abs(at.extras(0)) < 1;
+  return true;
+}
+
+/// Moves a start on a special point beside it, so that this is passed as others are: of Hopf points to the
+/// side where they are ones.
+void put_beside(ExtendedProblem& problem, Index second, const continuation::TraceOptions& options,
+                BasePoint& at) {
+  constexpr double beside = 1e-3;
+  const double middle = 0.5 * (options.from + options.to);
+  const double inwards = at.parameters(second) < middle ? 1 : -1;
+  for (const double way : {inwards, -inwards}) {
+    BasePoint there = at;
+    there.parameters(second) += way * beside * std::abs(options.to - options.from);
+    const auto located = continuation::locate(problem, there, options.tolerance);
+    if (!located || !is_one(problem, located->point)) continue;
+    at = located->point;
+    return;
+  }
+}
+
+/// Whether a curve is of special cycles like those of this start, and passes it, or ends at small ones like
+/// it.
+bool has_come_to(const TracedBranch& curve, const continuation::OrbitCurveStart& start,
+                 const ExtendedProblem& kind) {
+  constexpr double near = 1e-2;
+  constexpr double located = 1e-5;
+  constexpr double shrunk = 0.2;  // of the largest cycle
+  const ExtendedProblem& own = *curve.curve;
+  const auto* orbits = dynamic_cast<const continuation::OrbitProblem*>(&own.base());
+  if (orbits == nullptr || typeid(own) != typeid(kind)) return false;
+  const bool is_small = start.direction.size() > 0;
+  const Vector& p = start.point.parameters;
+  const double duration = start.orbits->duration(start.point.unknowns, p);
+  const double margin = is_small ? near : located;
+  const auto is_there = [&](const BranchPoint& point) {
+    const BasePoint at = own.split(point.unknowns, point.parameters, point.regime);
+    if (!(std::abs(orbits->duration(at.unknowns, at.parameters) - duration) < margin * duration))
+      return false;
+    if (!((at.parameters - p).array().abs() <= margin * p.array().abs().max(margin)).all()) return false;
+    return !is_small || orbits->apart(at.unknowns, at.regime) < shrunk;
+  };
+  return std::any_of(curve.branch.points.begin(), curve.branch.points.end(), is_there);
+}
+
+/// Traced as `trace` does it, with the time that it takes.
+template <class Trace>
+TracedBranch timed(const std::shared_ptr<const CaseBranch>& request, const Trace& trace) {
+  const Clock::time_point begun = Clock::now();
+  continuation::Curve curve = trace();
+  TracedBranch traced{request, {}, std::move(curve.problem), std::move(curve.branch), 0};
+  traced.base.problem = std::move(curve.base);
+  traced.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+  return traced;
+}
+
+/// The one of the same equilibria or points of a map.
+FurtherCurve meeting(const TracedBranch& from, const continuation::CurveWindow& window,
+                     continuation::CurveStart start) {
+  const std::shared_ptr<ExtendedProblem> problem = std::move(start.problem);
+  const std::shared_ptr<const continuation::Problem> base = from.base.problem;
+  const std::shared_ptr<const CaseBranch> request = from.request;
+  const auto is_part_of = [problem, at = start.point](const TracedBranch& curve) {
+    return is_known(curve, *problem, at);
+  };
+  const auto trace = [problem, base, request, window, at = start.point](
+                         const TraceOptions& options, const continuation::Observer& observer) {
+    BasePoint beside = at;
+    put_beside(*problem, continuation::index_of(base->parameter_names(), options.parameter), options, beside);
+    TracedBranch traced = timed(request, [&] {
+      return continuation::Curve{base, problem,
+                                 continuation::trace_curve(*problem, beside, options, window, observer)};
+    });
+    keep_hopf_points(traced);
+    return traced;
+  };
+  return {start.point.parameters, false, is_part_of, trace};
+}
+
+FurtherCurve of_cycles(const TracedBranch& from, const continuation::CurveWindow& window,
+                       const OrbitCurveStart& start) {
+  const std::shared_ptr<ExtendedProblem> kind = start.make(*start.orbits, start.point);
+  const std::shared_ptr<const CaseBranch> request = from.request;
+  const auto is_part_of = [kind, start](const TracedBranch& curve) {
+    return has_come_to(curve, start, *kind);
+  };
+  const auto trace = [kind, request, window, start](const TraceOptions& options,
+                                                    const continuation::Observer& observer) {
+    OrbitCurveStart beside = start;
+    const Index second = continuation::index_of(start.orbits->parameter_names(), options.parameter);
+    if (start.direction.size() == 0) put_beside(*kind, second, options, beside.point);
+    return timed(request, [&] {
+      return continuation::trace_orbit_curve(beside, options, window, request->cycles.options, observer);
+    });
+  };
+  return {start.point.parameters, true, is_part_of, trace};
+}
+
+bool is_of_orbits(const TracedBranch& curve) {
+  return dynamic_cast<const OrbitProblem*>(curve.base.problem.get()) != nullptr;
+}
+
+}  // namespace
+
+std::vector<FurtherCurve> further_curves(const TracedBranch& curve, const BranchPoint& point,
+                                         const continuation::CurveWindow& window) {
+  const std::shared_ptr<const continuation::Problem>& base = curve.base.problem;
+  std::vector<FurtherCurve> further;
+  std::vector<OrbitCurveStart> cycles;
+  if (is_of_orbits(curve)) {
+    cycles = continuation::cycle_curves_meeting(*curve.curve, point);
+  } else {
+    continuation::CurveStart start = continuation::curve_meeting(*curve.curve, point);
+    if (start.problem != nullptr) further.push_back(meeting(curve, window, std::move(start)));
+    if (may_leave_cycles(*base))
+      cycles = continuation::cycle_curves_from(std::make_shared<continuation::EquilibriumField>(base),
+                                               *curve.curve, point, curve.request->cycles.options);
+  }
+  for (const OrbitCurveStart& start : cycles) further.push_back(of_cycles(curve, window, start));
+  return further;
+}
+
+void follow_curves(TraceOptions options, const continuation::CurveWindow& window,
+                   const continuation::TimeBudget& time, const continuation::Observer& observer,
+                   std::vector<TracedBranch>& curves) {
+  for (const bool of_cycles : {false, true}) {
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      const TracedBranch from = curves[i];
+      for (const BranchPoint& point : from.branch.points) {
+        for (const FurtherCurve& one : further_curves(from, point, window)) {
+          if (!time.goes_on()) return;
+          if (one.is_of_cycles != of_cycles || std::any_of(curves.begin(), curves.end(), one.is_part_of))
+            continue;
+          const Index second =
+              continuation::index_of(from.base.problem->parameter_names(), options.parameter);
+          if (curves.size() >= options.max_branches)
+            return curves.back().branch.warn(
+                continuation::more_branches(curves.size(), options.parameter, one.parameters(second)));
+          options.max_seconds = time.rest().max_seconds;
+          curves.push_back(one.trace(options, observer));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace arcslip
