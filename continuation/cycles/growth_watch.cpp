@@ -6,12 +6,21 @@
 #include <cmath>
 
 namespace arcslip::continuation {
+namespace {
 
-GrowthWatch::GrowthWatch(const OrbitProblem& orbits, const std::string& parameter, double tolerance)
-    : orbits_(orbits), parameter_(parameter), nearly_(std::min(1e-8, 0.01 * tolerance)) {}
+constexpr double grown = 1.05;
+
+}  // namespace
+
+GrowthWatch::GrowthWatch(const OrbitProblem& orbits, const std::string& parameter, double tolerance,
+                         bool is_curve)
+    : orbits_(orbits),
+      parameter_(parameter),
+      nearly_(std::min(1e-8, 0.01 * tolerance)),
+      is_curve_(is_curve) {}
 
 bool GrowthWatch::goes_on(const BasePoint& at) {
-  constexpr double grown = 1.05;
+  constexpr double hardly = 0.01;
   constexpr int many = 30;       // points: where rounding hides how an orbit goes on
   constexpr double rest = 1e-2;  // of the mean speed: that from an equilibrium falls with e^(-T/2) at least
   if (!orbits_.has_duration()) return true;
@@ -28,18 +37,32 @@ bool GrowthWatch::goes_on(const BasePoint& at) {
     period_ = period;
     points_ = 0;
   }
-  return (period < grown * period_ && ++points_ < many) ||
+  if (!(std::abs(period - crept_) <= hardly * crept_ &&
+        std::abs(value - crept_to_) <= 0.1 * hardly * scale(parameter))) {
+    crept_ = period;
+    crept_to_ = value;
+    crept_for_ = 0;
+  }
+  const bool stands = is_curve_ ? ++crept_for_ >= 2 * many : ++points_ >= many;
+  return (period < grown * period_ && !stands) ||
          orbits_.least_speed(at.unknowns, at.parameters, at.regime) > rest;
 }
 
 void GrowthWatch::end(Branch& branch) const {
+  branch.checkpoint.reset();
+  if (is_curve_ && last_period_ < grown * period_) {
+    branch.stop = Stop::no_value;
+    branch.explanation = fmt::format(
+        "the orbits all but rest on their way, where rounding and meshes hide how the curve goes on: the "
+        "period is {:.6g} at {} = {:.10g}",
+        last_period_, parameter_, value_);
+    return;
+  }
   branch.stop = Stop::infinite_period;
   branch.explanation = fmt::format(
       "the period grows without bound, past {:.6g}: an orbit that begins and ends on an equilibrium lies at "
-      "{} = "
-      "{:.{}g}",
+      "{} = {:.{}g}",
       last_period_, parameter_, value_, static_cast<int>(std::ceil(-std::log10(nearly_))));
-  branch.checkpoint.reset();
 }
 
 }  // namespace arcslip::continuation

@@ -200,9 +200,11 @@ switching = true
   for (const std::string step : {"0.03", "0.1", "0.3"}) {
     const auto all = traced_of(reactor, {"continuation.max_step=" + step});
     REQUIRE(all.size() == 3);
-    // folds of cycles from a generalised Hopf point on
-    CHECK(all[2].branch.stop == Stop::infinite_period);
-    CHECK(all[2].branch.points.size() < 200);
+    // Folds of cycles from a generalised Hopf point on, which come near to an orbit of infinite period,
+    // sooner or later.
+    CHECK(all[2].branch.stop == Stop::no_value);
+    CHECK(all[2].branch.explanation.find("all but rest on their way") != std::string::npos);
+    CHECK(all[2].branch.points.size() < 500);
     for (const std::size_t i : {0, 1}) {
       const TracedBranch& one = all[i];
       const std::vector<BranchPoint> ends = points(one, PointType::bogdanov_takens);

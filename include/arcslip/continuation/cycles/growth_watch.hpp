@@ -12,16 +12,17 @@
 namespace arcslip::continuation {
 
 /// Tells where the period grows while the parameter no longer changes, and the orbit all but rests on its
-/// way. Relaxation oscillations grow as fast, without rest.
+/// way. Relaxation oscillations grow as fast, without rest. Special orbits, which know their parameters less
+/// well than others the nearer they come, may creep before they are there.
 class GrowthWatch {
  public:
-  /// Of a branch, or curve, over this parameter, of orbits with errors of this size. Kept by reference.
-  GrowthWatch(const OrbitProblem& orbits, const std::string& parameter, double tolerance);
+  /// Of a branch, or a curve, over this parameter, of orbits with errors of this size. Kept by reference.
+  GrowthWatch(const OrbitProblem& orbits, const std::string& parameter, double tolerance, bool is_curve);
 
   /// Looks at the next orbit.
   bool goes_on(const BasePoint& at);
 
-  /// Ends a branch there, with as many digits of the parameter as are known.
+  /// Ends a branch there, with as many digits of the parameter as are known; or a curve that creeps.
   void end(Branch& branch) const;
 
  private:
@@ -32,6 +33,10 @@ class GrowthWatch {
   double period_ = 0;  // the least at this value
   double last_period_ = 0;
   int points_ = 0;  // since then
+  bool is_curve_;
+  double crept_ = 0;  // a period, and a value, from which the last ones hardly differ
+  double crept_to_ = 0;
+  int crept_for_ = 0;  // points
 };
 
 }  // namespace arcslip::continuation
