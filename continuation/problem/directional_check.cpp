@@ -17,6 +17,7 @@ constexpr double quick_step =
     1e-6;  // of the problem's scale; rounding is 1e-10, curvature 1e-12 of the terms
 constexpr double suspicious = 1e-6;
 constexpr double wrong = 1e-5;
+constexpr double unseen = 1e-13;  // of a value, along the scale: its rounding, which no step tells from it
 constexpr std::array<double, 5> steps = {1e-5, 1e-6, 1e-7, 1e-8, 1e-9};  // down to where rounding is 1e-7
 
 /// A direction of (u, p).
@@ -112,11 +113,13 @@ class Comparison {
   }
 
   bool differs(const Function& f, const Direction& direction, Index row) const {
-    Vector product, sizes;
+    Vector product, sizes, here;
     f.derivative(direction, product);
     f.sizes(direction, sizes);
     const auto found = difference(f, direction, row, product(row));
-    return found && std::abs(product(row) - *found) > wrong * std::max(sizes(row), std::abs(*found));
+    if (!found || !displaced(f, direction, 0, here)) return false;
+    const double error = std::abs(product(row) - *found);
+    return error > wrong * std::max(sizes(row), std::abs(*found)) && error > unseen * std::abs(here(row));
   }
 
   bool leaves_regime() const {

@@ -17,6 +17,21 @@ using namespace arcslip::testing;
 
 namespace {
 
+/// A line with a border far away, of which a slope is told.
+class FarBorder : public ScalarProblem {
+ public:
+  explicit FarBorder(double slope) : ScalarProblem(line("p", 1)), slope_(slope) {}
+  int border_count(const Regime& /*regime*/) const override { return 1; }
+  double border(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*regime*/, int /*border*/,
+                Gradient* gradient) const override {
+    if (gradient != nullptr) *gradient = {vector_of({slope_}), vector_of({0})};
+    return -1;
+  }
+
+ private:
+  double slope_;
+};
+
 /// Freudenstein & Roth's problem with something done to what it gives.
 class Mistaken : public FreudensteinRoth {
  public:
@@ -195,6 +210,9 @@ TEST_CASE("Right derivatives are never suspected: beside corners and borders, on
     INFO(found.value_or(""));
     CHECK_FALSE(found);
   };
+  for (const double slope : {1e-18, -9e-15, 3e-14})
+    silent(FarBorder(slope), vector_of({0.5}), vector_of({0.5}));
+  CHECK(find_wrong_derivative(FarBorder(1e-10), vector_of({0.5}), vector_of({0.5}), {}, {0}, {}));
   std::mt19937 random(1);
   std::uniform_real_distribution<double> exponent(-14, 0);
   std::uniform_real_distribution<double> resolved(-9, 0);  // what is sharper no difference could see
