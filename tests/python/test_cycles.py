@@ -193,3 +193,16 @@ def test_switch_leads_to_cycles_of_twice_the_period():
     assert twice["T"][-1] == pytest.approx(2 * once["T"][-1], rel=0.02)
     again = once.start_from(doubling, range=(2.5, 3.2))
     assert again["c"][-1] == 3.2
+
+
+def test_equilibria_of_cycles_begin_where_the_start_lies():
+    # at mu < 0 there are none; both of z = +-sqrt(mu) have a Hopf point at mu = 1/2
+    grows = "(mu - 1/2 - x^2 - y^2)"
+    model = arcslip.Model(
+        {"x": f"{grows}*x - y", "y": f"x + {grows}*y", "z": "z^2 - mu"}, {"mu": 1}, start={"z": 1}
+    )
+    cycles = arcslip.trace_cycles(model, p0={"mu": 1}, parameter="mu", range=(-0.5, 2))
+    assert sorted(np.sign(branch["z_max"][-1]) for branch in cycles) == [-1, 1]
+    assert all(branch["mu"][-1] == 2 for branch in cycles)
+    with pytest.raises(ValueError, match="no solution was found"):
+        arcslip.trace_cycles(model, p0={"mu": -0.3}, parameter="mu", range=(-0.5, -0.1))

@@ -27,7 +27,10 @@ std::vector<continuation::CycleBranch> traced_cycles(const std::shared_ptr<const
                                                      const continuation::CycleOptions& cycles,
                                                      const continuation::Observer& observer) {
   if (!settle && !field->is_periodic()) {
-    const continuation::Branch equilibria = continuation::trace(problem, guess, unwatched(options));
+    const continuation::Branch equilibria = both
+                                                ? continuation::trace_both(problem, guess, unwatched(options))
+                                                : continuation::trace(problem, guess, unwatched(options));
+    if (equilibria.stop == continuation::Stop::no_start) throw std::invalid_argument(equilibria.explanation);
     return trace_cycles_leaving(field, {equilibria}, options, cycles, observer);
   }
   continuation::CycleStart start =

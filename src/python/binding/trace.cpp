@@ -202,7 +202,6 @@ std::vector<continuation::OrbitStart> orbits_leaving(const BranchHandle& handle,
 Handles switch_curves(const BranchHandle& handle, std::size_t point,
                       const std::optional<std::pair<double, double>>& window, TraceOptions& options,
                       const py::object& progress) {
-  const CurveUse alone(handle.curve_flag());
   const continuation::CurveWindow bounds =
       window ? continuation::CurveWindow{window->first, window->second} : continuation::CurveWindow{};
   Handles handles;
