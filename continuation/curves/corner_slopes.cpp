@@ -75,8 +75,33 @@ std::optional<int> CornerSlopes::way_back(const BasePoint& point, const Regime& 
   return any ? std::optional(any->border) : std::nullopt;
 }
 
+/// The regime beyond a border and all those that the branch comes to together with it, as borders do that a
+/// symmetry makes one.
+std::optional<Regime> CornerSlopes::beyond(const BasePoint& point, int border) {
+  constexpr double same = 1e-8;  // a value or a rate: points are known to 1e-10
+  auto beyond = base_.regime_beyond(point.regime, border);
+  Branch branch{point.regime, border, {}};
+  if (!beyond || base_.border_count(point.regime) < 2 || !set_tangent(point, branch)) return beyond;
+  const auto along = [&](int b) {
+    branch.border = b;
+    return border_rate(point, branch);
+  };
+  const auto value = [&](int b) {
+    return base_.border(point.unknowns, point.parameters, point.regime, b, nullptr);
+  };
+  const double rate = along(border);
+  for (int b = 0; b < base_.border_count(point.regime); ++b) {
+    const auto next = base_.regime_beyond(point.regime, b);
+    const bool together = std::abs(value(b) - value(border)) <= same && std::abs(along(b) - rate) <= same;
+    if (b == border || !next || !together) continue;
+    for (Index i = 0; i < base_.switch_count(); ++i)
+      if ((*next)[i] != point.regime[i]) beyond = beyond->with(i, (*next)[i]);
+  }
+  return beyond;
+}
+
 bool CornerSlopes::begin(const BasePoint& point, int border) {
-  const auto beyond = base_.regime_beyond(point.regime, border);
+  const auto beyond = this->beyond(point, border);
   const auto back = beyond ? way_back(point, *beyond) : std::nullopt;
   if (!back) return false;
   sides_ = {Branch{point.regime, border, {}}, Branch{*beyond, *back, {}}};

@@ -241,12 +241,7 @@ bool ExtremumTracer::add_fold(const BasePoint& corner, int border, Side side) {
   BranchPoint fold = row(*found, PointType::fold);
   fold.tangent = direction_to(fold);
   fold.tangent(fold.tangent.size() - 1) = 0;
-  const double rises = observable_rate(fold, way(curve_.points.back(), fold));
-  add(fold);
-  if (!options_.extrema_of.empty()) {
-    fold.type = rises > 0 ? PointType::peak : PointType::trough;
-    add(fold);
-  }
+  add_turn(std::move(fold));
   return !told_to_end_;
 }
 

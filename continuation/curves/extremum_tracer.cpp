@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "arcslip/continuation/path/repetition.hpp"
 
 namespace arcslip::continuation {
 
@@ -134,6 +137,9 @@ void ExtremumTracer::append(Branch piece, std::size_t skipped) {
       point.type = PointType::regular;
     curve_.points.push_back(std::move(point));
   }
+  if (!begins && curve_.stop == Stop::closed_loop && !came_back())
+    stop(Stop::repeats,
+         "the curve comes back to where its last piece began and not to its start, at " + place());
 }
 
 /// A piece within a regime or along a border. `sees` gets all of its points in their order, also of those
@@ -174,7 +180,16 @@ void ExtremumTracer::smooth(const Guess& guess, bool towards_to, std::size_t ski
   const std::size_t before = curve_.points.size();
   if (!problem_.adapt(problem_.split(guess.unknowns, guess.parameters, guess.regime)))
     return stop(Stop::no_value, "the problem has no value where the curve goes on");
-  append(piece(problem_, guess, towards_to, options, comes_near), skipped);
+  Branch part = piece(problem_, guess, towards_to, options, comes_near);
+  const auto turn = turns_in_place(part.points, options_.tolerances);
+  turns_ = turn.has_value();
+  if (turn) {
+    // A corner that no border tells of, or rounding: but for the first turn what is found is none of the
+    // curve.
+    part.points.resize(*turn + 1);
+    part.stop = Stop::min_step;
+  }
+  append(std::move(part), skipped);
   constexpr std::size_t well = 10;  // rows
   if (curve_.points.size() > before + well) patience_ = 3;
 }
@@ -307,6 +322,8 @@ bool ExtremumTracer::go_on() {
   const bool is_stuck = near_ || curve_.stop == Stop::left_regime || curve_.stop == Stop::min_step ||
                         curve_.stop == Stop::no_value || curve_.stop == Stop::no_start;
   if (!is_stuck) return false;
+  if (std::exchange(turns_, false) && past_turn()) return true;
+  if (curve_.points.empty() || told_to_end_) return false;
   if (const auto place = meeting()) return leave(*place);
   if (told_to_end_) return false;
   if (!near_) return curve_.stop != Stop::left_regime && walk();

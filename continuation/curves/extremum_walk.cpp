@@ -1,5 +1,5 @@
 // Where a curve of extrema comes to a corner within its regime, which no border tells of: there the extremum
-// is followed from response to response, in steps of the parameter.
+// is followed from response to response, in steps of the parameter; and where rounding hides how it turns.
 
 #include <fmt/format.h>
 
@@ -62,11 +62,59 @@ bool ExtremumTracer::smoothly_on(const BasePoint& here, double sense) {
   const std::size_t seen = before + std::min(added, enough) - 1;
   const bool ahead = added > 0 && (curve_.points[seen].parameters(parameter_) - value(here)) * sense > 0;
   const bool ends = is_end(curve_.stop) || near_ || told_to_end_ || curve_.stop == Stop::max_points;
-  if (ahead && (added >= enough || ends)) return true;
+  const bool goes_round = curve_.stop == Stop::repeats;
+  if (ahead && !goes_round && (added >= enough || ends)) return true;
   curve_.points.resize(before);
+  seen_ = std::min(seen_, before);
   near_ = false;
+  turns_ = false;
   stop(Stop::min_step, "the extremum is followed from response to response, at " + place());
   return false;
+}
+
+/// Goes on from the last row, a fold beside which rounding hides how the curve runs, as far away as needed to
+/// tell: there the parameter changes twice as fast as half as far away. False where it nowhere does, or goes
+/// on as it came, and leaves no fold.
+bool ExtremumTracer::past_turn() {
+  constexpr double farthest = 0.1;  // in the scale
+  constexpr double nearest = 1e-5;  // the same: nearer than this the parameter all but stands still
+  constexpr double sure = 100;      // times what it changes there
+  const BranchPoint fold = curve_.points.back();
+  curve_.points.pop_back();
+  if (curve_.points.empty() || !problem_.adapt(split(fold))) return false;
+  const double sense = way_so_far(parameter_scale(fold));
+  Corrector corrector(problem_, parameter_, {.tolerance = options_.tolerance});
+  CurvePoint origin = corrector.make_point();
+  origin.unknowns = fold.unknowns;
+  origin.parameters = fold.parameters;
+  origin.regime = fold.regime;
+  corrector.set_scale(origin);
+  CurvePoint at = origin;
+  const Vector normal = fold.tangent.cwiseQuotient(origin.scale).normalized();
+  double rounding = 0;  // of the rate at which the parameter changes
+  for (double way = options_.tolerances.same_point; way < farthest; way *= 2) {
+    corrector.displace(origin, way * normal, at);
+    if (corrector.correct(at, origin, normal, way, false) != Correction::converged) continue;
+    const double rate = corrector.direction()(problem_.size());
+    if (way < nearest) rounding = std::max(rounding, std::abs(rate));
+    if (way < nearest || !(std::abs(rate) > sure * rounding)) continue;
+    if (rate * sense > 0) return false;
+    add_turn(fold);
+    const Vector tangent = corrector.direction().cwiseProduct(origin.scale);
+    if (!told_to_end_) smooth({at.unknowns, at.parameters, at.regime, tangent}, true, 0);
+    return !told_to_end_;
+  }
+  return false;
+}
+
+/// A fold and the extremum of what is looked for along the curve that it is, too.
+void ExtremumTracer::add_turn(BranchPoint fold) {
+  const double rises = observable_rate(fold, way(curve_.points.back(), fold));
+  fold.type = PointType::fold;
+  add(fold);
+  if (told_to_end_ || options_.extrema_of.empty()) return;
+  fold.type = rises > 0 ? PointType::peak : PointType::trough;
+  add(std::move(fold));
 }
 
 /// Whether the curve has turned where it stands before, a while ago: then it goes back on itself.
@@ -137,10 +185,15 @@ void ExtremumTracer::stride(Walk& walk, const ResponseExtremum::Found& next, dou
 bool ExtremumTracer::fold_back(Walk& walk, ResponseExtremum& extrema) {
   constexpr double far = 1e-5;  // on the response, in the scale: to the other one of a pair that vanishes
   const auto other = extrema.next_to(walk.here, !walk.peak, far);
-  if (!other || ++walk.flips > 1) return false;
+  if (!other || ++walk.flips > 1) {
+    stop(Stop::min_step,
+         fmt::format("the extremum is lost on a corner that no border tells of, at {}", place()));
+    return false;
+  }
   walk.peak = !walk.peak;
   walk.sense = -walk.sense;
   walk.here = other->at;
+  walk.turned = value(walk.here);
   walk.step = first_step;
   walk.predicts = false;
   walk.rate.setZero();
@@ -151,6 +204,15 @@ bool ExtremumTracer::fold_back(Walk& walk, ResponseExtremum& extrema) {
   if (!has_turned_here()) return true;
   stop(Stop::min_step, "the curve goes back on itself, at " + place());
   return false;
+}
+
+/// How far from where it is predicted an extremum is looked for. Two that vanish together lie apart by the
+/// root of the way from there.
+double ExtremumTracer::reach_at(const Walk& walk, double to, double scale) const {
+  constexpr double beside = 1e-6;  // in the scale of the parameter
+  const double steady = 100 * std::abs(to - value(walk.here)) / scale;
+  const double from_turn = std::abs(to - walk.turned) / scale;
+  return from_turn < beside ? std::max(steady, std::sqrt(from_turn)) : steady;
 }
 
 bool ExtremumTracer::walk() {
@@ -175,7 +237,7 @@ bool ExtremumTracer::walk() {
     Guess guess = guess_at(walk.here);
     guess.unknowns += walk.rate * (to - from);
     guess.parameters(parameter_) = to;
-    const double reach = 100 * std::abs(to - from) / scale;
+    const double reach = reach_at(walk, to, scale);
     const auto next =
         extrema.next_to(problem_.split(guess.unknowns, guess.parameters, walk.here.regime), walk.peak, reach);
     const bool inside = next && distance(next->at) >= 0;
@@ -183,6 +245,8 @@ bool ExtremumTracer::walk() {
                            next->at.parameters(problem_.active()) <= window_.high;
     if (inside && in_window) {
       stride(walk, *next, to);
+      // Along the direction of a response left behind Newton's method goes ever less far.
+      walk.predicts = extrema.begin(walk.here);
       if (told_to_end_) return false;
       if (next->corner || walk.walked < patience_) continue;
       patience_ *= 2;

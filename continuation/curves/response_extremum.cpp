@@ -18,12 +18,12 @@ ResponseExtremum::ResponseExtremum(const Problem& base, Index active, Index obse
 }
 
 bool ResponseExtremum::begin(const BasePoint& point) {
-  forward_ = Vector::Unit(base_.size() + 1, base_.size());
   at_.unknowns = point.unknowns;
   at_.parameters = point.parameters;
   at_.regime = point.regime;
   corrector_.set_scale(at_);
-  if (corrector_.linearise(at_, forward_) != Correction::converged) return false;
+  const Vector over_parameter = Vector::Unit(base_.size() + 1, base_.size());
+  if (corrector_.linearise(at_, over_parameter) != Correction::converged) return false;
   forward_ = corrector_.direction().normalized();
   return true;
 }

@@ -271,17 +271,6 @@ void Tracer::take() {
   store(PointType::regular);
 }
 
-/// Whether other borders are reached together with the one that was located, but for rounding.
-bool Tracer::on_several_borders() const {
-  const CurvePoint& here = stepper_.here();
-  int reached = 0;
-  for (int border = 0; border < problem_.border_count(here.regime); ++border) {
-    const double value = problem_.border(here.unknowns, here.parameters, here.regime, border, nullptr);
-    reached += static_cast<int>(std::abs(value) <= options_.tolerances.together);
-  }
-  return reached > 1;
-}
-
 Correction Tracer::leave(int border, bool several) {
   const CurvePoint& here = stepper_.here();
   if (!several) {

@@ -1,5 +1,7 @@
 // What a branch takes from the events that a step ends at.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -29,6 +31,21 @@ double Tracer::longest_step() const {
                : options_.max_step;
 }
 
+/// Whether other borders are reached together with the one that was located, but for rounding, and something
+/// lies beyond one of them.
+bool Tracer::on_several_borders() const {
+  const CurvePoint& here = stepper_.here();
+  int reached = 0;
+  bool leads_on = false;
+  for (int border = 0; border < problem_.border_count(here.regime); ++border) {
+    const double value = problem_.border(here.unknowns, here.parameters, here.regime, border, nullptr);
+    if (!(std::abs(value) <= options_.tolerances.together)) continue;
+    ++reached;
+    leads_on = leads_on || problem_.regime_beyond(here.regime, border);
+  }
+  return reached > 1 && leads_on;
+}
+
 void Tracer::take_events(const Signs& before) {
   const CurvePoint& here = stepper_.here();
   const Passage passage{before, state_.signs, stepper_, watch_};
@@ -47,6 +64,11 @@ void Tracer::take_events(const Signs& before) {
     if (const auto known = came_round(problem_, branch_.points, parameter_, options_.tolerances))
       stop(Stop::repeats, "the branch came back to its point " + std::to_string(*known) +
                               " and not to its start: a step had gone over to another branch");
+    if (turns_in_place(branch_.points, options_.tolerances))
+      stop(Stop::repeats,
+           fmt::format(
+               "the branch turns again and again at {}: a corner or rounding that its steps do not pass",
+               place()));
     // Others may stand for a while, as sliding does under the force that it needs, and go on.
     if (!options_.symmetries.empty() &&
         stands_still(problem_, branch_.points, parameter_, options_.tolerances))

@@ -102,6 +102,84 @@ TEST_CASE("A peak of three harmonics vanishes on a corner within slip and goes b
   CHECK_THAT(folds[0], WithinRel(0.1300119914, 1e-8));  // where bisection on responses loses the peak
 }
 
+TEST_CASE("A peak that meets a trough turns once, though rounding hides how", "[cases]") {
+  // The contact is so stiff that R runs through decades where Y all but stands still.
+  const Case input = case_texts::read_text(R"([system]
+model = "beams"
+wave_number = 1
+elements = 18
+mass_ratio = 0.7908866647309086
+frequency_ratio = 1.0
+interface_stiffness = 43055794.98737376
+damping = { base = 0.0014459122400466678, damper = 0.00039471375582047694 }
+force = 1.0
+preload = 0.1580924169812655
+harmonics = 3
+[branch]
+curve = "peak"
+parameters = ["eta", "P"]
+window = [0.43135619248171664, 2.4761439223649298]
+from = 0.0052697472327088496
+to = 4.742772509437965
+[continuation]
+max_points = 90
+)");
+  const std::vector<TracedBranch> curves = trace(input.branches.front());
+  REQUIRE(!curves.empty());
+  const Branch& curve = curves[0].branch;
+  std::vector<std::size_t> turns;
+  for (std::size_t i = 0; i < curve.points.size(); ++i)
+    if (curve.points[i].type == PointType::fold) turns.push_back(i);
+  REQUIRE(turns.size() == 1);
+  // Responses at 0.2158 have both, those at 0.2159 neither.
+  CHECK_THAT(curve.points[turns[0]].parameters(0), WithinAbs(0.21585, 5e-5));
+  CHECK(curve.points.back().parameters(0) < 0.2158);
+}
+
+TEST_CASE("An extremum is followed from response to response in long steps and back", "[cases]") {
+  const Case input = case_texts::read_text(R"([system]
+model = "rods"
+wave_number = 5
+elements = 32
+mass_ratio = 0.2446331943812558
+frequency_ratio = 0.4486144502268379
+interface_stiffness = 35.32141466827884
+damping = { base = 0.0009680411362445967, damper = 0.007223640282732534 }
+force = 1.0
+preload = 11.49700270681494
+harmonics = 3
+[branch]
+curve = "peak"
+parameters = ["eta", "P"]
+window = [0.57, 4.0]
+from = 0.39
+to = 12.0
+[continuation]
+stop_at = [1.4]
+)");
+  const std::vector<TracedBranch> curves = trace(input.branches.front());
+  REQUIRE(!curves.empty());
+  CHECK(curves[0].branch.points.size() < 1000);
+  // Where it meets a peak it goes back as that one, down to the first value.
+  CHECK(curves[0].branch.complete());
+  CHECK(curves[0].branch.points.front().parameters(0) == 0.39);
+  CaseBranch response = seed_branch(input.branches.front());
+  response.problem.system.preload = 1.4;
+  const Branch at_value = trace(response).front().branch;
+  const auto users = of_type(curves[0].branch, PointType::user);
+  CHECK(users.size() == 3);  // a peak, the trough that it meets, and the peak that this one meets
+  for (const PointType type : {PointType::peak, PointType::trough}) {
+    const auto extrema = of_type(at_value, type);
+    const auto is_passed = [&](const BranchPoint& user) {
+      const double eta = curves[0].curve->split(user.unknowns, user.parameters, user.regime).parameters(0);
+      return std::any_of(extrema.begin(), extrema.end(), [&](const BranchPoint& extremum) {
+        return std::abs(eta / extremum.parameters(0) - 1) < 1e-8;
+      });
+    };
+    CHECK(std::any_of(users.begin(), users.end(), is_passed));
+  }
+}
+
 TEST_CASE("A peak passes the border of stick where its own amplitude tells it", "[cases]") {
   // To ground Y is R: the peak comes to R = S from the middle of slip, and nothing beside it on the border.
   const std::string settings = GENERATE("system.harmonics=1", "system.harmonics=5");

@@ -82,6 +82,52 @@ class HiddenEdge : public Edge {
   }
 };
 
+/// Two equal halves, u_i + s_i (u_i - q) + (u_i - u_j) = 10 - p^2, where s_i is 1 for u_i > q and else 0: by
+/// symmetry both come to their borders at once.
+class EqualHalves : public Problem {
+ public:
+  enum SwitchState : int { above, below };
+
+  Index size() const override { return 2; }
+  std::vector<std::string> parameter_names() const override { return {"p", "q"}; }
+  bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                const Evaluation& out) const override {
+    for (Index i = 0; i < 2; ++i) {
+      const double s = regime[i] == above ? 1 : 0;
+      if (out.residual != nullptr)
+        (*out.residual)(i) = u(i) + s * (u(i) - p(1)) + u(i) - u(1 - i) - 10 + p(0) * p(0);
+      if (out.jacobian != nullptr) out.jacobian->row(i) << (i == 0 ? 2 + s : -1), (i == 0 ? -1 : 2 + s);
+      if (out.parameter_jacobian != nullptr) out.parameter_jacobian->row(i) << 2 * p(0), -s;
+    }
+    return true;
+  }
+  Index switch_count() const override { return 2; }
+  int border_count(const Regime& /*regime*/) const override { return 2; }
+  double border(const Vector& u, const Vector& p, const Regime& regime, int border,
+                Gradient* gradient) const override {
+    const double sign = regime[border] == above ? 1 : -1;
+    if (gradient != nullptr) {
+      gradient->unknowns = -sign * Vector::Unit(2, border);
+      gradient->parameters << 0, sign;
+    }
+    return sign * (p(1) - u(border));
+  }
+  std::optional<Regime> regime_beyond(const Regime& regime, int border) const override {
+    return regime.with(border, regime[border] == above ? below : above);
+  }
+  std::vector<Observable> observables() const override { return {{"Y", true}}; }
+  void observe(const Vector& u, const Vector& /*p*/, const Regime& /*regime*/,
+               Vector& values) const override {
+    values = u.head(1);
+  }
+  double observe(const Vector& u, const Vector& /*p*/, const Regime& /*regime*/, Index /*which*/,
+                 Gradient& gradient) const override {
+    gradient.unknowns << 1, 0;
+    gradient.parameters.setZero();
+    return u(0);
+  }
+};
+
 /// The curve through the first extremum of a type at some q, over q from -3 to 2.
 Branch curve_of(const Problem& problem, PointType type, double q, const TraceOptions& wanted) {
   TraceOptions options = over("p", -5, 5);
@@ -137,6 +183,29 @@ TEST_CASE("A peak goes on from a regime along its border and into the next one")
   CHECK(places(curve, PointType::corner_fold).empty());
   for (std::size_t i = 1; i < curve.points.size(); ++i)
     CHECK(curve.points[i].arclength >= curve.points[i - 1].arclength);
+}
+
+TEST_CASE("A peak goes on beyond borders that it comes to together") {
+  const EqualHalves problem;
+  TraceOptions options = over("p", -1, 1);
+  options.extrema_of = {"Y"};
+  const auto peak =
+      of_type(trace(problem, {vector_of({7, 7}), vector_of({-1, 5})}, options), PointType::peak);
+  REQUIRE(peak.size() == 1);
+  const CurveStart start = curve_through(problem, "p", peak[0], "Y");
+  const Branch curve = trace_curve(*start.problem, start.point, over("q", 1, 20));
+  REQUIRE(curve.complete());
+  CHECK(curve.points.front().parameters(0) == 1);
+  CHECK(curve.points.back().parameters(0) == 20);
+  CHECK(curve.points.back().regime == Regime().with(0, EqualHalves::below).with(1, EqualHalves::below));
+  for (const BranchPoint& point : curve.points) {
+    const double q = point.parameters(0);
+    CAPTURE(q);
+    CHECK_THAT(point.unknowns(0), WithinAbs(q < 10 ? (10 + q) / 2 : 10, 1e-9));
+    CHECK_THAT(point.unknowns(2), WithinAbs(0, 1e-9));
+  }
+  CHECK(of_type(curve, PointType::regime_switch).size() == 1);
+  CHECK(of_type(curve, PointType::corner_fold).empty());
 }
 
 TEST_CASE("Where a peak meets a corner trough its curve turns back along the border") {

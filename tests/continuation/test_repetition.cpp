@@ -64,3 +64,25 @@ TEST_CASE("A branch that creeps past a fold does not come round", "[repetition]"
   for (const double angle : {0.0, 1e-9, 2e-9, 5e-9}) points.push_back(on_circle(angle, PointType::fold));
   CHECK(!came_round(circle, points, 0));
 }
+
+TEST_CASE("A branch is told to turn in one place where it has many folds on no way", "[repetition]") {
+  std::vector<BranchPoint> points = {on_circle(1, PointType::regular)};
+  const auto go_on = [&](double way, PointType type) {
+    const double before = points.back().arclength;
+    points.push_back(on_circle(1, type));
+    points.back().arclength = before + way;
+  };
+  go_on(0.1, PointType::fold);  // a place before it
+  for (int i = 0; i < 19; ++i) {
+    go_on(i == 0 ? 0.1 : 1e-9, PointType::fold);
+    go_on(1e-9, PointType::peak);
+    CHECK(!turns_in_place(points));
+  }
+  go_on(1e-9, PointType::regular);
+  CHECK(!turns_in_place(points));
+  go_on(1e-9, PointType::fold);
+  CHECK(turns_in_place(points) == std::optional<std::size_t>(2));
+  std::erase_if(points, [](const BranchPoint& point) { return point.type != PointType::fold; });
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].arclength = 1e-6 * static_cast<double>(i);
+  CHECK(!turns_in_place(points));  // close folds of a curve that goes on
+}

@@ -72,6 +72,7 @@ class CornerSlopes {
     Vector tangent;  // n + 1, unit length in units of the scale, from `arriving` to `leaving`
   };
 
+  std::optional<Regime> beyond(const BasePoint& point, int border);
   std::optional<int> way_back(const BasePoint& point, const Regime& beyond) const;
   bool set_tangent(const BasePoint& point, Branch& side);
   BasePoint just_beyond(const BasePoint& point, const Branch& side);

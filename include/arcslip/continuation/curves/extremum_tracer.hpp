@@ -3,6 +3,7 @@
 // The state of a curve of extrema that is followed across borders, one way; see extremum_curve.hpp. Its
 // pieces are traced within a regime or along a border; between them stand the places where they meet.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,8 @@ class ExtremumTracer {
   bool pass(const BasePoint& corner, Side side);
   std::optional<BasePoint> straight_on(const BasePoint& corner, Side side);
   std::optional<BasePoint> fold_beside(const BasePoint& corner, int border, Side side);
+  bool past_turn();
+  void add_turn(BranchPoint fold);
   bool add_fold(const BasePoint& corner, int border, Side side);
   BasePoint settled(const BasePoint& point, int border) const;
   static BasePoint settled(BorderProblem& edge, const BasePoint& point);
@@ -115,10 +118,12 @@ class ExtremumTracer {
     Vector rate;       // of the unknowns over it
     bool predicts = false;
     int walked = 0;
-    int flips = 0;  // since the last row
+    int flips = 0;                                             // since the last row
+    double turned = std::numeric_limits<double>::quiet_NaN();  // the parameter where it last went back
   };
   bool walk();
   void stride(Walk& walk, const ResponseExtremum::Found& next, double to);
+  double reach_at(const Walk& walk, double to, double scale) const;
   bool fold_back(Walk& walk, ResponseExtremum& extrema);
   std::optional<BasePoint> begin_walk(ResponseExtremum& extrema, bool& peak);
   bool smoothly_on(const BasePoint& here, double sense);
@@ -160,6 +165,7 @@ class ExtremumTracer {
   std::size_t seen_ = 0;  // rows in which the start was looked for
   bool near_ = false;     // whether the last piece was left before a border
   bool passes_ = false;   // whether it is so near to a border that it does not meet
+  bool turns_ = false;    // whether the last row is where the last piece turned again and again
   int patience_ = 3;      // steps from response to response before a smooth piece is tried again
   bool told_to_end_ = false;
   std::optional<BranchPoint> stood_;  // the last row when a piece was to be added before

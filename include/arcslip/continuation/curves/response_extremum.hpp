@@ -28,7 +28,8 @@ class ResponseExtremum {
   /// within `farthest`.
   [[nodiscard]] std::optional<Found> next_to(const BasePoint& guess, bool peak, double farthest);
 
-  /// Sets the way that counts as forward: that of rising active parameter at this point.
+  /// Sets the way that counts as forward: that of rising active parameter at this point. False where it is
+  /// not known; the last one stays.
   [[nodiscard]] bool begin(const BasePoint& point);
 
  private:

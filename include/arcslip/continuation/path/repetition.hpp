@@ -1,7 +1,8 @@
 #pragma once
 
 // Whether a branch goes round a loop that its start is not on: a step then went over to another branch; or
-// along solutions at one value of the parameter. Nothing would end either.
+// along solutions at one value of the parameter; or to and fro in one place. Nothing
+// would end any of these.
 
 #include <optional>
 #include <vector>
@@ -21,5 +22,10 @@ std::optional<std::size_t> came_round(const Problem& problem, const std::vector<
 /// to and fro by rounding alone.
 bool stands_still(const Problem& problem, const std::vector<BranchPoint>& points, Index active,
                   const Tolerances& tolerances = {});
+
+/// From which point on the branch, whose last point is a fold, has done nothing but turn in one place: there
+/// are many folds on a way that is rounding. None where there is no such place.
+std::optional<std::size_t> turns_in_place(const std::vector<BranchPoint>& points,
+                                          const Tolerances& tolerances = {});
 
 }  // namespace arcslip::continuation
