@@ -98,8 +98,12 @@ void Tracer::set_signs_of_zeros(bool is_ahead, bool is_only) {
   watch_.look(ahead.point);
   for (std::size_t i = 0; i < watch_.searched(); ++i) {
     const double there = watch_.functions()[i];
-    if (!watch_.piece_of(i) && there != 0 && vanishes(watch_.kept().front().functions[i], there))
-      state_.signs.functions[i] = is_only ? -sign_of(there) : 1;
+    if (there == 0 || !vanishes(watch_.kept().front().functions[i], there)) continue;
+    if (is_only) {
+      state_.signs.functions[i] = -sign_of(there);
+    } else if (!watch_.piece_of(i)) {  // which by its own sign lies on one of the two ways
+      state_.signs.functions[i] = 1;
+    }
   }
   watch_.look(stepper_.here());
 }

@@ -8,6 +8,44 @@
 #include "arcslip/continuation/path/tracer.hpp"
 
 namespace arcslip::continuation {
+namespace {
+
+/// Whether a value has all but vanished over a step, as it must where its zero is as near to the end as
+/// values are one.
+bool vanishes(double from, double to) {
+  constexpr double little = 0.01;
+  return std::abs(to) <= little * std::abs(from);
+}
+
+bool ends_near_turn(const Step& step) {
+  return vanishes(parameter_rate(step.here), parameter_rate(step.there));
+}
+
+/// The same of all else that is looked for.
+bool ends_near_zero(const Stepper& stepper, Watch& watch) {
+  const Step& step = stepper.step();
+  if (vanishes(1, std::exp(step.there.log_determinant - step.here.log_determinant))) return true;
+  const auto tracked = static_cast<std::size_t>(stepper.monitors().tracked_count());
+  for (std::size_t m = 0; m < step.to.size(); ++m) {
+    if (m < tracked ? vanishes(step.from[m].slope, step.to[m].slope)
+                    : vanishes(step.from[m].value, step.to[m].value))
+      return true;
+  }
+  if (watch.empty()) return false;
+  watch.look(step.there);
+  const Look& here = watch.kept().front();
+  for (std::size_t i = 0; i < watch.searched(); ++i) {
+    if (vanishes(here.functions[i], watch.functions()[i])) return true;
+  }
+  const std::size_t rates = std::min(here.rates.size(), static_cast<std::size_t>(watch.eigenvalues().size()));
+  for (std::size_t i = 0; i < rates; ++i) {
+    if (vanishes(here.rates[i], watch.eigenvalues()(static_cast<Index>(i)).real())) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 /// A start on a special point lies on a value but for rounding, and no step of that length can be made from
 /// it. On an end of the range no branch that starts there has come back to it.
 void Tracer::take_where_it_starts(bool is_special) {
@@ -25,14 +63,34 @@ void Tracer::forget_tries() {
 }
 
 bool Tracer::try_landing() {
-  if (stepper_.attempt_landing(landing_->value) && find_events()) return true;
-  // A special point at the very value, where the parameter cannot be kept, is stepped over and located.
+  const auto lands = [this] { return stepper_.attempt_landing(landing_->value) && find_events(); };
+  const auto ends_at_event = [this](Hold hold, double distance) {
+    return stepper_.attempt(hold, distance) && find_events() && !events_.empty();
+  };
+  const bool has_landed = lands();
   const double distance = stepper_.step().distance;
-  const double beyond = 1.5 * distance / std::abs(stepper_.parameter_slope(Hold::tangent));
-  if (stepper_.attempt(Hold::tangent, beyond) && find_events() && !events_.empty()) {
+  const bool is_end = landing_->kind == Target::Kind::end || landing_->kind == Target::Kind::bound;
+  if (has_landed) {
+    if (!is_end || !events_.empty() || closing_) return true;
+    // From a special point on, where something is zero, nothing is told by how little of it is left.
+    const bool is_past_special = branch_.points.back().type != PointType::regular;
+    const bool may_turn = ends_near_turn(stepper_.step());
+    if (!may_turn && !is_past_special && !ends_near_zero(stepper_, watch_)) return true;
+    // What lies on the end is behind it by the last digit or before it, and no further step would tell it.
+    constexpr double most_of_it = 0.9;
+    const double behind = distance + most_of_it * options_.tolerances.same_value;
+    if (!may_turn && (ends_at_event(Hold::parameter, behind) || lands())) return true;
+  }
+  // A special point at the very value, where the parameter cannot be kept, is stepped over and located. To a
+  // turn it is twice as far as the slope tells; so near to the end nothing else keeps a step from it.
+  constexpr double near = 1e-6;
+  const double reach = is_end && (has_landed || distance <= near) ? 3 : 1.5;
+  const double beyond = reach * distance / std::abs(stepper_.parameter_slope(Hold::tangent));
+  if (ends_at_event(Hold::tangent, beyond)) {
     use(Hold::tangent);  // at a fold the parameter cannot be kept
     return true;
   }
+  if (has_landed && lands()) return true;
   landing_failed_ = true;
   rest_before(*landing_);
   use(Hold::parameter);

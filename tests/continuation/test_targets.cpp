@@ -5,6 +5,7 @@
 
 #include "arcslip/continuation/path/trace.hpp"
 #include "catch.hpp"
+#include "engine_problems.hpp"
 #include "scalar_problem.hpp"
 
 using namespace arcslip;
@@ -113,4 +114,83 @@ TEST_CASE("0 is reached also in a scale that shrinks with the parameter") {
   CHECK(branch.points.back().parameters(0) == 0);
   CHECK(branch.points.back().unknowns(0) == 0);
   CHECK(branch.points.size() < 1000);
+}
+
+namespace {
+
+/// u = 1 - (p - place)^2.
+ScalarProblem hill(double place) {
+  return {{"p"},
+          [=](double u, const Vector& p) { return u - 1 + std::pow(p(0) - place, 2); },
+          [](double, const Vector&) { return 1.0; },
+          {[=](double, const Vector& p) { return 2 * (p(0) - place); }}};
+}
+
+std::vector<PointType> last_types(const Branch& branch, std::size_t count) {
+  std::vector<PointType> types;
+  for (std::size_t i = branch.points.size() - count; i < branch.points.size(); ++i)
+    types.push_back(branch.points[i].type);
+  return types;
+}
+
+}  // namespace
+
+TEST_CASE("A special point on the end of a range is told once, on either side of it by rounding") {
+  constexpr double place = 1.3;
+  const double off = GENERATE(-1e-9, -3e-11, -1e-13, -2.3e-16, 0.0, 2.3e-16, 1e-13, 3e-11, 1e-9);
+  const double way = GENERATE(-1.0, 1.0);
+  CAPTURE(off, way);
+  const double end = place + off;
+  const bool is_passed = way * off >= 0;
+  const std::size_t told = is_passed || std::abs(off) < 1e-10 ? 1 : 0;
+  const auto check = [&](const Problem& problem, double from_u, const TraceOptions& options, PointType type,
+                         const Regime& regime = {}) {
+    const Branch branch =
+        trace(problem, {vector_of({from_u}), vector_of({options.from}), regime, {}}, options);
+    CHECK(branch.complete());
+    CHECK(of_type(branch, type).size() == told);
+    for (const BranchPoint& point : of_type(branch, type))
+      CHECK_THAT(point.parameters(0), WithinAbs(options.to - off, 1e-10));
+    CHECK(branch.points.back().type == PointType::end);
+    CHECK_THAT(branch.points.back().parameters(0), WithinAbs(options.to, 1e-10));
+    if (told == 1) CHECK(last_types(branch, 2).front() == type);
+  };
+  TraceOptions peak = over("p", place - way, end);
+  peak.extrema_of = {"u"};
+  check(hill(place), 0, peak, PointType::peak);
+  TraceOptions smooth = over("p", place - way, end);
+  smooth.events = {{"zero", [](const Vector&, const Vector& p, const Regime&) { return p(0) - place; }}};
+  check(line("p", 1), place - way, smooth, PointType::event);
+  TraceOptions pieces = smooth;
+  pieces.events[0].piece = [](const Vector&, const Vector& p, const Regime&) { return p(0) > place ? 1 : 0; };
+  check(line("p", 1), place - way, pieces, PointType::event);
+  check(Corner(1, 3), way > 0 ? -1 : 1, over("p", way > 0 ? -1 : 3, off), PointType::regime_switch,
+        way > 0 ? 0 : 1);
+}
+
+TEST_CASE("A fold on the end of a range is told once, on either side of it by rounding") {
+  const ScalarProblem arch(
+      {"p"}, [](double x, const Vector& p) { return 1 - x * x - p(0); },
+      [](double x, const Vector&) { return -2 * x; }, {[](double, const Vector&) { return -1.0; }});
+  const double off = GENERATE(-3e-11, -1e-12, -1e-14, -2.3e-16, 0.0, 2.3e-16, 1e-12, 3e-11);
+  CAPTURE(off);
+  const Branch branch = trace(arch, {vector_of({-1}), vector_of({0})}, over("p", 0, 1 + off));
+  INFO(branch.explanation);
+  CHECK(branch.stop == Stop::reached_end);
+  CHECK(of_type(branch, PointType::fold).size() == 1);
+}
+
+TEST_CASE("A zero of a function of pieces where a branch starts is told once, whatever the last digit") {
+  const double off = GENERATE(-1e-11, -1e-13, -2.3e-16, 0.0, 2.3e-16, 1e-13, 1e-11);
+  const double end = GENERATE(-1.0, 1.0);
+  CAPTURE(off, end);
+  TraceOptions options = over("p", 0.5 + off, 0.5 + end);
+  options.events = {{"zero", [](const Vector&, const Vector& p, const Regime&) { return p(0) - 0.5; },
+                     [](const Vector&, const Vector& p, const Regime&) { return p(0) > 0.5 ? 1 : 0; }}};
+  const auto told = [&] {
+    const Branch branch = trace(line("p", 1), {vector_of({0.5 + off}), vector_of({0.5 + off})}, options);
+    CHECK(branch.complete());
+    return of_type(branch, PointType::event).size();
+  };
+  CHECK(told() == 1);
 }
