@@ -119,14 +119,15 @@ Zero ZeroSearch::first_of_pieces(const PiecewiseFunction& of, int sign, bool two
   return zero.state == Zero::State::found ? just_behind_corner(zero.s, to, before, of.value) : zero;
 }
 
-/// What lies ahead of a corner has to be begun with the derivatives there.
+/// What lies ahead of a corner has to be begun with the derivatives there. As far as nothing shows that it is
+/// passed, it is where the function is known to have its other sign.
 Zero ZeroSearch::just_behind_corner(double s, double to, int before, std::size_t which) {
   constexpr double least_way = 1e-11;  // relative to the step: growth rates go with the root of it
   for (double way = least_way * to; s + way < to; way *= 4) {
     const std::optional<double> value = readings_.value(which, s + way);
     if (value && sign_of(*value) == -before) return {Zero::State::found, s + way};
   }
-  return {Zero::State::found, s};
+  return {Zero::State::found, to};
 }
 
 Zero ZeroSearch::locate(const Node& a, const Node& b, double size, const ValueAt& at) const {

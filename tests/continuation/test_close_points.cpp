@@ -245,3 +245,35 @@ TEST_CASE("A branch that winds is resumed as it was left") {
   options.max_points = 29;
   check_gone_on(first, resume(winding.problem(), read_checkpoint(text), options), whole);
 }
+
+TEST_CASE("A zero of a function of pieces at the corner of a trough is told once") {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> part(0.2, 1);
+  constexpr double little = 1e-4;
+  for (int i = 0; i < 200; ++i) {
+    const double corner = part(random);
+    const double before = -1e-3 * part(random);
+    const double behind = 1e-3 * part(random);
+    const auto slope = [=](const Vector& p) { return p(0) > corner ? behind : before; };
+    const ScalarProblem bent(
+        {"p"}, [=](double u, const Vector& p) { return u - 1 - slope(p) * (p(0) - corner); },
+        [](double, const Vector&) { return 1.0; }, {[=](double, const Vector& p) { return -slope(p); }});
+    // It passes zero a few bits before the corner, and has noise of as many.
+    const double off = 2e-15 * part(random);
+    const auto zero = [=](const Vector& p) {
+      return (p(0) - corner + off + 1) - 1 + 4e-16 * std::round(std::sin(1e17 * p(0)));
+    };
+    TraceOptions options = over("p", corner - little * part(random), corner + little);
+    options.extrema_of = {"u"};
+    options.max_step = little;
+    options.events = {{"zero", [=](const Vector&, const Vector& p, const Regime&) { return zero(p); },
+                       [=](const Vector&, const Vector& p, const Regime&) {
+                         return p(0) > corner + 0.3 * little ? 1 : 0;
+                       }}};
+    const Branch branch = trace(bent, {vector_of({1}), vector_of({options.from})}, options);
+    CAPTURE(corner, before, behind, off);
+    CHECK(branch.complete());
+    CHECK(of_type(branch, PointType::trough).size() == 1);
+    CHECK(of_type(branch, PointType::event).size() == 1);
+  }
+}
