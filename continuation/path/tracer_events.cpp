@@ -10,6 +10,16 @@
 #include "arcslip/continuation/path/tracer.hpp"
 
 namespace arcslip::continuation {
+namespace {
+
+/// Whether one of these is a zero of a function of pieces, which is taken for a corner of the branch.
+bool is_corner(const std::vector<Event>& events, const Watch& watch) {
+  return std::any_of(events.begin(), events.end(), [&](const Event& event) {
+    return event.type == PointType::event && watch.piece_of(static_cast<std::size_t>(event.index));
+  });
+}
+
+}  // namespace
 
 /// Whether a point all but has symmetries that it has not.
 bool Tracer::meets(const CurvePoint& point) const {
@@ -75,6 +85,14 @@ void Tracer::take_events(const Signs& before) {
       stop(Stop::repeats, "along the branch " + options_.parameter + " does not change but for rounding");
   }
   if (stopped_) return;
+  // At a corner an observable may turn, and turn again before the next step ends.
+  for (std::size_t i = 0; i < before.observables.size() && is_corner(events_, watch_); ++i) {
+    const int behind = sign_of_slope(stepper_, i, stepper_.at_here()[i]);
+    int& sign = state_.signs.observables[i];
+    if (sign != before.observables[i] || sign * behind >= 0) continue;
+    sign = behind;
+    store(behind < 0 ? PointType::peak : PointType::trough);
+  }
   const auto end = std::find_if(events_.begin(), events_.end(),
                                 [](const Event& event) { return event.kind->ends_regime; });
   if (end != events_.end()) cross(static_cast<int>(end->index), on_several_borders());

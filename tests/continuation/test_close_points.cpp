@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <random>
 #include <sstream>
 #include <utility>
 
@@ -276,4 +277,35 @@ TEST_CASE("A zero of a function of pieces at the corner of a trough is told once
     CHECK(of_type(branch, PointType::trough).size() == 1);
     CHECK(of_type(branch, PointType::event).size() == 1);
   }
+}
+
+TEST_CASE("A trough at a corner is told although a peak follows at once") {
+  // u falls up to the corner, rises behind it and falls again from `way` on.
+  constexpr double corner = 0.4137;
+  const double way = GENERATE(1e-8, 1e-6, 1e-4, 1e-3);
+  const double max_step = GENERATE(0.003, 0.01, 0.03, 0.1);
+  CAPTURE(way, max_step);
+  const auto slope = [=](double x) { return x > 0 ? way - x : -0.1; };
+  const ScalarProblem bent(
+      {"p"},
+      [=](double u, const Vector& p) {
+        const double x = p(0) - corner;
+        return u - 1 - (x > 0 ? way * x - 0.5 * x * x : -0.1 * x);
+      },
+      [](double, const Vector&) { return 1.0; },
+      {[=](double, const Vector& p) { return -slope(p(0) - corner); }});
+  TraceOptions options = over("p", 0, 1);
+  options.extrema_of = {"u"};
+  options.max_step = max_step;
+  options.events = {{"zero", [=](const Vector&, const Vector& p, const Regime&) { return p(0) - corner; },
+                     [=](const Vector&, const Vector& p, const Regime&) { return p(0) > 0.9 ? 1 : 0; }}};
+  const Branch branch = trace(bent, {vector_of({1}), vector_of({0})}, options);
+  CHECK(branch.complete());
+  const auto troughs = of_type(branch, PointType::trough);
+  const auto peaks = of_type(branch, PointType::peak);
+  REQUIRE(troughs.size() == 1);
+  REQUIRE(peaks.size() == 1);
+  CHECK_THAT(troughs[0].parameters(0), WithinAbs(corner, 1e-10));
+  CHECK_THAT(peaks[0].parameters(0), WithinAbs(corner + way, 1e-10));
+  CHECK(of_type(branch, PointType::event).size() == 1);
 }
