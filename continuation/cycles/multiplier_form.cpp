@@ -67,19 +67,16 @@ class Rounds {
   /// The root of int_0^T |v|^2 dt.
   double length(const ComplexVector& v) const {
     if (cycles_ == nullptr) return v.norm();
-    const OrbitMesh& mesh = cycles_->frame(point_.regime).mesh;
-    const CollocationRule& rule = mesh.rule();
-    const Index n = cycles_->field().size();
-    double square = 0;
-    for (Index j = 0; j < mesh.intervals(); ++j) {
-      for (Index i = 0; i < rule.degree(); ++i) {
-        ComplexVector here = ComplexVector::Zero(n);
-        for (Index k = 0; k <= rule.degree(); ++k)
-          here += rule.values()(i, k) * v.segment((j * rule.degree() + k) * n, n);
-        square += mesh.length(j) * rule.weights()(i) * here.squaredNorm();
-      }
-    }
-    return std::sqrt(duration() * square);
+    return std::sqrt(duration()) * at_points(v, false).norm();
+  }
+
+  /// The same without v's part along the cycle's own velocity, which a phase condition leaves at will: where
+  /// there is one.
+  double length_across(const ComplexVector& v) const {
+    if (cycles_ == nullptr || !cycles_->has_duration()) return length(v);
+    const ComplexVector along = at_points(point_.unknowns.cast<Complex>(), true).normalized();
+    const ComplexVector here = at_points(v, false);
+    return std::sqrt(duration()) * (here - along.dot(here) * along).norm();
   }
 
   /// The coefficient of h^2 or h^3 of F along a curve: 0 in what is linear.
@@ -93,6 +90,27 @@ class Rounds {
   const Guess& point() const { return point_; }
 
  private:
+  /// v or its derivative by s = t/T where equations hold, times roots of weights: int_0^1 |v|^2 ds is its
+  /// square.
+  ComplexVector at_points(const ComplexVector& v, bool derivative) const {
+    const OrbitMesh& mesh = cycles_->frame(point_.regime).mesh;
+    const CollocationRule& rule = mesh.rule();
+    const Index n = cycles_->field().size();
+    const Index m = rule.degree();
+    ComplexVector result = ComplexVector::Zero(n * m * mesh.intervals());
+    for (Index j = 0; j < mesh.intervals(); ++j) {
+      const double length = mesh.length(j);
+      for (Index i = 0; i < m; ++i) {
+        const double factor = std::sqrt(length * rule.weights()(i)) / (derivative ? length : 1);
+        for (Index k = 0; k <= m; ++k) {
+          const double weight = derivative ? rule.derivatives()(i, k) : rule.values()(i, k);
+          result.segment((j * m + i) * n, n) += factor * weight * v.segment((j * m + k) * n, n);
+        }
+      }
+    }
+    return result;
+  }
+
   const CycleProblem* cycles_;
   Linearization at_;
   const Guess& point_;
@@ -250,7 +268,7 @@ bool at_fold(const Rounds& rounds, Expansion& expansion, Vector& coefficient) {
   const NullVectors found = null_vectors(rounds.matrix(1, true));
   ComplexVector v = found.right;
   v /= largest_entry(v);
-  v /= rounds.length(v.head(rounds.count()));
+  v /= rounds.length_across(v.head(rounds.count()));
   Matrix u = Matrix::Zero(v.size(), 3);
   u.col(0) = rounds.point().unknowns;
   u.col(1) = v.real();

@@ -9,8 +9,8 @@
 //
 // Of cycles these are divided by T, so that they are those of w' = c w^3, w' = j theta/T w + d w |w|^2 and w'
 // = b w^2 with int_0^T |v|^2 dt = 1 [Yu. A. Kuznetsov, W. Govaerts, E. J. Doedel, A. Dhooge, SIAM J. Numer.
-// Anal. 43 (2005) 1407]; of maps |v| = 1. Where c or Re d is below 0 what leaves is stable in the plane of v,
-// and the point is supercritical.
+// Anal. 43 (2005) 1407], v of a fold without a part along the cycle's velocity; of maps |v| = 1. Where c or
+// Re d is below 0 what leaves is stable in the plane of v, and the point is supercritical.
 //
 // They follow from the equations that hold the cycle, F(u) = 0: with v(T) = mu v(0) in place of v(T) = v(0)
 // their Jacobian is K(mu), and u + sum_a h_a w^a solves them order by order, K(mu^a) h_a = -r_a, r_a read
