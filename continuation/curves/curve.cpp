@@ -239,10 +239,7 @@ OrbitCurveStart orbit_curve_through(const OrbitProblem& orbits, const std::strin
     return curve_through(others, active, there).problem;
   };
   start.point.regime = {};
-  return {orbits.about(orbits.frame(point.regime).mesh, orbits.orbit(point.unknowns), point.parameters),
-          make,
-          std::move(start.point),
-          {}};
+  return {about(orbits, point.unknowns, point.parameters, point.regime), make, std::move(start.point), {}};
 }
 
 Curve trace_orbit_curve(const OrbitCurveStart& start, const TraceOptions& options, const CurveWindow& window,

@@ -16,10 +16,10 @@ namespace {
 
 /// From a small cycle, or a small difference of two rounds, which grows along the direction.
 template <class Special>
-OrbitCurveStart from_small(std::shared_ptr<const OrbitProblem> orbits, const Guess& guess, Index active,
-                           const Vector& extras) {
+OrbitCurveStart from_small(const auto& orbit, Index active, const Vector& extras) {
+  const Guess& guess = orbit.guess;
   OrbitCurveStart start;
-  start.orbits = std::move(orbits);
+  start.orbits = orbit.problem;
   start.make = [active](const OrbitProblem& others, const BasePoint& /*at*/) {
     return std::make_unique<Special>(others, active);
   };
@@ -27,11 +27,6 @@ OrbitCurveStart from_small(std::shared_ptr<const OrbitProblem> orbits, const Gue
   start.direction = Vector::Zero(guess.direction.size() + 1 + extras.size());
   start.direction.head(guess.direction.size()) = guess.direction;
   return start;
-}
-
-template <class Special>
-OrbitCurveStart from_cycle(const SmallCycle& cycle, Index active, const Vector& extras) {
-  return from_small<Special>(cycle.start.problem, cycle.start.guess, active, extras);
 }
 
 double coefficient(const NormalForm& form, const std::string& name) {
@@ -58,14 +53,15 @@ std::vector<OrbitCurveStart> cycle_curves_from(const std::shared_ptr<const Field
   const auto number = [&](const char* name) { return form ? coefficient(*form, name) : std::nan(""); };
   std::vector<OrbitCurveStart> starts;
   const auto add_tori = [&](const SmallCycle& cycle, double turn) {
-    starts.push_back(from_cycle<TorusProblem>(cycle, curve.active(), Vector::Constant(1, std::cos(turn))));
+    starts.push_back(
+        from_small<TorusProblem>(cycle.start, curve.active(), Vector::Constant(1, std::cos(turn))));
   };
   switch (point.type) {
     case PointType::generalized_hopf: {
       constexpr double apart = 1e-8;  // both cycles' growth in a radian: far above rounding
       const double size = std::pow(apart / std::abs(number("l2")), 0.25);
       const SmallCycle cycle = cycle_of_pair(field, there, own, known(size), options);
-      starts.push_back(from_cycle<FoldProblem>(cycle, curve.active(), Vector()));
+      starts.push_back(from_small<FoldProblem>(cycle.start, curve.active(), Vector()));
       break;
     }
     case PointType::hopf_hopf: {
@@ -96,7 +92,6 @@ std::vector<OrbitCurveStart> cycle_curves_meeting(const ExtendedProblem& curve, 
   const auto* cycles = dynamic_cast<const PeriodicOrbit*>(&curve.base());
   if (cycles == nullptr) return {};
   const BasePoint at = curve.split(point.unknowns, point.parameters, point.regime);
-  const OrbitFrame& frame = cycles->frame(at.regime);
   if (point.type == PointType::generalized_period_doubling) {
     constexpr double far = 0.03;  // of the range
     BranchPoint doubling;
@@ -105,23 +100,14 @@ std::vector<OrbitCurveStart> cycle_curves_meeting(const ExtendedProblem& curve, 
     doubling.regime = at.regime;
     const auto both = orbit_from_doubling(*cycles, curve.active(), doubling, far);
     if (!both) return {};
-    return {from_small<FoldProblem>(both->problem, both->guess, curve.active(), Vector())};
+    return {from_small<FoldProblem>(*both, curve.active(), Vector())};
   }
-  auto other = multiplier_curve_meeting(curve, point.type);
-  if (point.type == PointType::fold_neimark_sacker) {
-    const ComplexVector logs = cycles->log_multipliers(at.unknowns, at.parameters, at.regime);
-    Vector extras;
-    const auto make = [active = curve.active()](const Problem& base) -> std::unique_ptr<ExtendedProblem> {
-      return std::make_unique<TorusProblem>(base, active);
-    };
-    if (special_of_multipliers(*cycles, PointType::neimark_sacker, curve.active(), logs, extras) != nullptr)
-      other = MultiplierCurve{make, extras};
-  }
+  const auto other = multiplier_curve_meeting(curve, point.type, at);
   if (!other) return {};
   const auto make = [make = other->make](const OrbitProblem& orbits, const BasePoint& /*at*/) {
     return make(orbits);
   };
-  return {{cycles->about(frame.mesh, cycles->orbit(at.unknowns), at.parameters),
+  return {{about(*cycles, at.unknowns, at.parameters, at.regime),
            make,
            {at.unknowns, at.parameters, {}, other->extras},
            {}}};

@@ -34,7 +34,8 @@ MultiplierCurve curve_of(Index active, const Vector& extras) {
 
 }  // namespace
 
-std::optional<MultiplierCurve> multiplier_curve_meeting(const ExtendedProblem& curve, PointType type) {
+std::optional<MultiplierCurve> multiplier_curve_meeting(const ExtendedProblem& curve, PointType type,
+                                                        const BasePoint& at) {
   const bool is_of_folds = dynamic_cast<const FoldProblem*>(&curve) != nullptr;
   const bool is_of_doublings = dynamic_cast<const DoublingProblem*>(&curve) != nullptr;
   const bool is_of_tori = dynamic_cast<const TorusProblem*>(&curve) != nullptr;
@@ -46,6 +47,13 @@ std::optional<MultiplierCurve> multiplier_curve_meeting(const ExtendedProblem& c
   switch (type) {
     case PointType::fold_flip:
       return is_of_folds ? curve_of<DoublingProblem>(active, {}) : curve_of<FoldProblem>(active, {});
+    case PointType::fold_neimark_sacker: {
+      Vector kappa;
+      const Guess there{at.unknowns, at.parameters, at.regime, {}};
+      if (curve.base().special(PointType::neimark_sacker, active, there, kappa) == nullptr)
+        return std::nullopt;
+      return is_of_folds ? of_tori(kappa(0)) : curve_of<FoldProblem>(active, {});
+    }
     case PointType::resonance_1_1: return is_of_tori ? curve_of<FoldProblem>(active, {}) : of_tori(1);
     case PointType::resonance_1_2: return is_of_tori ? curve_of<DoublingProblem>(active, {}) : of_tori(-1);
     default: return std::nullopt;
@@ -56,7 +64,7 @@ CurveStart curve_meeting(const ExtendedProblem& curve, const BranchPoint& point)
   const BasePoint at = curve.split(point.unknowns, point.parameters, point.regime);
   CurveStart start{nullptr, {at.unknowns, at.parameters, at.regime, {}}};
   if (curve.base().has_multipliers()) {
-    if (const auto other = multiplier_curve_meeting(curve, point.type)) {
+    if (const auto other = multiplier_curve_meeting(curve, point.type, at)) {
       start.problem = other->make(curve.base());
       start.point.extras = other->extras;
     }

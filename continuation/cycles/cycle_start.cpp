@@ -154,9 +154,9 @@ std::optional<OrbitStart> orbit_from_branch_point(const OrbitProblem& problem, c
   const std::vector<Guess> ways = other_ways(problem, parameter, point, tolerances);
   if (ways.empty()) return std::nullopt;
   const Guess& way = ways.front();
-  const Matrix orbit = problem.orbit(way.unknowns);
-  OrbitStart start = start_from(problem.about(problem.frame(point.regime).mesh, orbit, way.parameters), orbit,
-                                problem.duration(way.unknowns, way.parameters), way.parameters);
+  OrbitStart start =
+      start_from(about(problem, way.unknowns, way.parameters, point.regime), problem.orbit(way.unknowns),
+                 problem.duration(way.unknowns, way.parameters), way.parameters);
   start.guess.direction = way.direction;
   start.both_ways = true;
   return start;

@@ -4,10 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
-#include "arcslip/continuation/curves/orbit_curve.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 #include "cases/further_curves.hpp"
@@ -21,7 +19,6 @@ using continuation::BranchPoint;
 using continuation::ExtendedProblem;
 using continuation::PointType;
 using continuation::TimeBudget;
-using Clock = std::chrono::steady_clock;
 
 /// Whether solutions are one: of orbits, which may be told on different meshes, by what is observed of them.
 bool same_solution(const continuation::Problem& a, const BasePoint& at, const continuation::Problem& b,
@@ -99,23 +96,17 @@ TracedBranch trace_through(const Request& request, const TracedBranch& seeds, co
                            const continuation::Observer& observer) {
   const CurveRequest& asked = *request->curve;
   const continuation::OrbitOptions& orbits = request->cycles.options;
-  const Clock::time_point begun = Clock::now();
-  TracedBranch traced{request, seeds.base, nullptr, {}, 0};
-  if (asked.level) {
-    continuation::CurveStart start =
-        continuation::curve_at(*asked.level, *seeds.base.problem, asked.active, seed);
-    traced.branch =
+  const std::shared_ptr<const continuation::Problem>& base = seeds.base.problem;
+  return traced_curve(request, seeds.base, [&] {
+    if (!asked.level) {
+      return continuation::trace_curve_through(base, asked.active, seed, observable, options, asked.window,
+                                               orbits, observer);
+    }
+    continuation::CurveStart start = continuation::curve_at(*asked.level, *base, asked.active, seed);
+    Branch curve =
         continuation::trace_curve(*start.problem, start.point, options, asked.window, observer, orbits);
-    traced.curve = std::move(start.problem);
-  } else {
-    continuation::Curve curve = continuation::trace_curve_through(
-        seeds.base.problem, asked.active, seed, observable, options, asked.window, orbits, observer);
-    traced.base.problem = std::move(curve.base);
-    traced.curve = std::move(curve.problem);
-    traced.branch = std::move(curve.branch);
-  }
-  traced.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-  return traced;
+    return continuation::Curve{base, std::move(start.problem), std::move(curve)};
+  });
 }
 
 }  // namespace

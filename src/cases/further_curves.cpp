@@ -22,7 +22,6 @@ using continuation::ExtendedProblem;
 using continuation::OrbitCurveStart;
 using continuation::OrbitProblem;
 using continuation::TraceOptions;
-using Clock = std::chrono::steady_clock;
 
 /// Whether a curve is of points of the same kind as another, and passes a point of the base.
 bool is_known(const TracedBranch& curve, const ExtendedProblem& kind, const BasePoint& at) {
@@ -99,32 +98,21 @@ bool has_come_to(const TracedBranch& curve, const continuation::OrbitCurveStart&
   return std::any_of(curve.branch.points.begin(), curve.branch.points.end(), is_there);
 }
 
-/// Traced as `trace` does it, with the time that it takes.
-template <class Trace>
-TracedBranch timed(const std::shared_ptr<const CaseBranch>& request, const Trace& trace) {
-  const Clock::time_point begun = Clock::now();
-  continuation::Curve curve = trace();
-  TracedBranch traced{request, {}, std::move(curve.problem), std::move(curve.branch), 0};
-  traced.base.problem = std::move(curve.base);
-  traced.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-  return traced;
-}
-
 /// The one of the same equilibria or points of a map.
 FurtherCurve meeting(const TracedBranch& from, const continuation::CurveWindow& window,
                      continuation::CurveStart start) {
   const std::shared_ptr<ExtendedProblem> problem = std::move(start.problem);
-  const std::shared_ptr<const continuation::Problem> base = from.base.problem;
   const std::shared_ptr<const CaseBranch> request = from.request;
   const auto is_part_of = [problem, at = start.point](const TracedBranch& curve) {
     return is_known(curve, *problem, at);
   };
-  const auto trace = [problem, base, request, window, at = start.point](
+  const auto trace = [problem, base = from.base, request, window, at = start.point](
                          const TraceOptions& options, const continuation::Observer& observer) {
     BasePoint beside = at;
-    put_beside(*problem, continuation::index_of(base->parameter_names(), options.parameter), options, beside);
-    TracedBranch traced = timed(request, [&] {
-      return continuation::Curve{base, problem,
+    const Index second = continuation::index_of(base.problem->parameter_names(), options.parameter);
+    put_beside(*problem, second, options, beside);
+    TracedBranch traced = traced_curve(request, base, [&] {
+      return continuation::Curve{base.problem, problem,
                                  continuation::trace_curve(*problem, beside, options, window, observer)};
     });
     keep_hopf_points(traced);
@@ -140,12 +128,12 @@ FurtherCurve of_cycles(const TracedBranch& from, const continuation::CurveWindow
   const auto is_part_of = [kind, start](const TracedBranch& curve) {
     return has_come_to(curve, start, *kind);
   };
-  const auto trace = [kind, request, window, start](const TraceOptions& options,
-                                                    const continuation::Observer& observer) {
+  const auto trace = [kind, base = from.base, request, window, start](
+                         const TraceOptions& options, const continuation::Observer& observer) {
     OrbitCurveStart beside = start;
     const Index second = continuation::index_of(start.orbits->parameter_names(), options.parameter);
     if (start.direction.size() == 0) put_beside(*kind, second, options, beside.point);
-    return timed(request, [&] {
+    return traced_curve(request, base, [&] {
       return continuation::trace_orbit_curve(beside, options, window, request->cycles.options, observer);
     });
   };
@@ -157,6 +145,16 @@ bool is_of_orbits(const TracedBranch& curve) {
 }
 
 }  // namespace
+
+TracedBranch traced_curve(const std::shared_ptr<const CaseBranch>& request, const Built& base,
+                          const std::function<continuation::Curve()>& trace) {
+  const auto begun = std::chrono::steady_clock::now();
+  continuation::Curve curve = trace();
+  TracedBranch traced{request, base, std::move(curve.problem), std::move(curve.branch), 0};
+  traced.base.problem = std::move(curve.base);
+  traced.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return traced;
+}
 
 std::vector<FurtherCurve> further_curves(const TracedBranch& curve, const BranchPoint& point,
                                          const continuation::CurveWindow& window) {
@@ -179,24 +177,35 @@ std::vector<FurtherCurve> further_curves(const TracedBranch& curve, const Branch
 void follow_curves(TraceOptions options, const continuation::CurveWindow& window,
                    const continuation::TimeBudget& time, const continuation::Observer& observer,
                    std::vector<TracedBranch>& curves) {
-  for (const bool of_cycles : {false, true}) {
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      const TracedBranch from = curves[i];
-      for (const BranchPoint& point : from.branch.points) {
-        for (const FurtherCurve& one : further_curves(from, point, window)) {
-          if (!time.goes_on()) return;
-          if (one.is_of_cycles != of_cycles || std::any_of(curves.begin(), curves.end(), one.is_part_of))
-            continue;
-          const Index second =
-              continuation::index_of(from.base.problem->parameter_names(), options.parameter);
-          if (curves.size() >= options.max_branches)
-            return curves.back().branch.warn(
-                continuation::more_branches(curves.size(), options.parameter, one.parameters(second)));
-          options.max_seconds = time.rest().max_seconds;
-          curves.push_back(one.trace(options, observer));
+  // false where no more may be followed
+  const auto follow = [&](const FurtherCurve& one) {
+    if (!time.goes_on()) return false;
+    if (std::any_of(curves.begin(), curves.end(), one.is_part_of)) return true;
+    if (curves.size() >= options.max_branches) {
+      const std::vector<std::string> names = curves.front().base.problem->parameter_names();
+      const double second = one.parameters(continuation::index_of(names, options.parameter));
+      curves.back().branch.warn(continuation::more_branches(curves.size(), options.parameter, second));
+      return false;
+    }
+    options.max_seconds = time.rest().max_seconds;
+    curves.push_back(one.trace(options, observer));
+    return true;
+  };
+  std::vector<FurtherCurve> of_cycles;  // that begin on others: they wait for all of these
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const TracedBranch from = curves[i];
+    for (const BranchPoint& point : from.branch.points) {
+      for (FurtherCurve& one : further_curves(from, point, window)) {
+        if (one.is_of_cycles && !is_of_orbits(from)) {
+          of_cycles.push_back(std::move(one));
+        } else if (!follow(one)) {
+          return;
         }
       }
     }
+    if (i + 1 < curves.size()) continue;
+    if (!std::all_of(of_cycles.begin(), of_cycles.end(), follow)) return;
+    of_cycles.clear();
   }
 }
 

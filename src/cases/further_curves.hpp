@@ -3,8 +3,10 @@
 // Curves of special points that begin on others, or meet them.
 
 #include <functional>
+#include <memory>
 
 #include "arcslip/cases/runs.hpp"
+#include "arcslip/continuation/curves/orbit_curve.hpp"
 
 namespace arcslip {
 
@@ -12,6 +14,11 @@ namespace arcslip {
 inline bool same_place(const Vector& a, const Vector& b) {
   return ((a - b).array().abs() <= 1e-6 * (1 + b.array().abs())).all();
 }
+
+/// What `trace` traces, with the time that it takes: a curve of what was built, or of orbits on meshes of
+/// their own.
+TracedBranch traced_curve(const std::shared_ptr<const CaseBranch>& request, const Built& base,
+                          const std::function<continuation::Curve()>& trace);
 
 /// A curve that is there to be traced.
 struct FurtherCurve {

@@ -34,6 +34,19 @@ void check_curve(const TracedBranch& curve, const std::string& name, const Exact
     CHECK_THAT(value(curve, point, name), WithinAbs(exact(point), margin));
 }
 
+using Names = std::vector<std::string>;
+
+Names kinds(const std::vector<TracedBranch>& all) {
+  Names names;
+  for (const TracedBranch& one : all) {
+    const auto* curve = one.curve.get();
+    names.push_back(dynamic_cast<const continuation::DoublingProblem*>(curve) != nullptr ? "doublings"
+                    : dynamic_cast<const continuation::TorusProblem*>(curve) != nullptr  ? "tori"
+                                                                                         : "folds");
+  }
+  return names;
+}
+
 }  // namespace
 
 TEST_CASE("Folds of cycles are followed from generalised Hopf points", "[cycles]") {
@@ -153,17 +166,6 @@ TEST_CASE("Curves of special cycles are followed from where others meet them", "
       "[model.parameters]\nmu = 0.5\nnu = -0.3\nk = 0.9\n[model.start]\nx = 1.3\n[cycles]\nsettle = "
       "40\n[branch]\n"
       "switching = true\n";
-  const auto kinds = [](const std::vector<TracedBranch>& all) {
-    std::vector<std::string> names;
-    for (const TracedBranch& one : all) {
-      const auto* curve = one.curve.get();
-      names.push_back(dynamic_cast<const continuation::DoublingProblem*>(curve) != nullptr ? "doublings"
-                      : dynamic_cast<const continuation::TorusProblem*>(curve) != nullptr  ? "tori"
-                                                                                           : "folds");
-    }
-    return names;
-  };
-  using Names = std::vector<std::string>;
   // folds at mu = 0, r = 1, and doublings at nu = 0.7 (1 - r), mu = (r^2 - 1)^2
   const auto folds =
       traced_of(flipping_pair("mu - (r^2 - 1)^2", "nu + 0.7*(r - 1) - 0.5*ZZ",
@@ -189,49 +191,52 @@ TEST_CASE("Curves of special cycles are followed from where others meet them", "
   CHECK(value(doublings[1], doublings[1].branch.points.front(), "k") > 0.2);
   CHECK(value(doublings[1], doublings[1].branch.points.back(), "k") == 0.1);
   // tori of maps from resonances 1:2 and 1:1: at determinant 1 of a fixed point
-  const auto from_flips = traced_of(R"case(
-[model]
-kind = "map"
-[model.parameters]
-b = 0.5
-q = -1.7
-[model.equations]
-x = "y"
-y = "-b*x + q*y - 0.4*x^2*y + 0.3*x*y"
-[branch]
-curve = "period_doubling"
-switching = true
-parameters = ["b", "q"]
-window = [-0.5, 1.5]
-from = -3
-to = -1
-)case");
+  const auto from_flips = traced_of(doublings_of_map + "switching = true\n");
   REQUIRE(kinds(from_flips) == Names{"doublings", "tori"});
   for (const BranchPoint& point : from_flips[1].branch.points)
     CHECK_THAT(value(from_flips[1], point, "b"), WithinAbs(1, 1e-9));
-  const auto from_folds = traced_of(R"case(
-[model]
-kind = "map"
-[model.parameters]
-mu = 0.1
-b = 0.5
-[model.equations]
-x = "y"
-y = "-b*x + (1 + b)*y + mu - x^2"
-[model.start]
-x = 0.3
-y = 0.3
-[branch]
-curve = "fold"
-switching = true
-parameters = ["mu", "b"]
-window = [0.1, -0.1]
-from = 0.5
-to = 1.5
-)case");
+  const auto from_folds = traced_of(folds_of_map + "switching = true\n");
   REQUIRE(kinds(from_folds) == Names{"folds", "tori"});
   for (const BranchPoint& point : from_folds[1].branch.points) {
     const double x = value(from_folds[1], point, "x");
     CHECK_THAT(value(from_folds[1], point, "b"), WithinAbs(1 - 2 * x, 1e-9));
   }
+}
+
+TEST_CASE("Tori of maps are followed from where their curves meet folds", "[cycles]") {
+  // x = +-sqrt(mu) beside a pair of modulus 1 + q - 0.5 x
+  const auto all = traced_of(R"case(
+[model]
+kind = "map"
+[model.parameters]
+mu = 0.04
+q = -0.3
+[model.definitions]
+r = "1 + q - 0.5*x - y^2 - z^2"
+[model.equations]
+x = "x + mu - x^2"
+y = "r*(0.6*y - 0.8*z)"
+z = "r*(0.8*y + 0.6*z)"
+[model.start]
+x = 0.2
+[branch]
+curve = "fold"
+switching = true
+parameters = ["mu", "q"]
+window = [0.1, -0.1]
+from = -0.3
+to = 0.2
+)case");
+  REQUIRE(kinds(all) == Names{"folds", "tori"});
+  check_values(all_values_at({all[0]}, PointType::fold_neimark_sacker, "q"), {0}, 1e-9);
+  double least = 0;
+  double largest = 0;
+  for (const BranchPoint& point : all[1].branch.points) {
+    const double q = value(all[1], point, "q");
+    CHECK_THAT(value(all[1], point, "mu"), WithinAbs(4 * q * q, 1e-9));
+    least = std::min(least, q);
+    largest = std::max(largest, q);
+  }
+  CHECK_THAT(least, WithinAbs(-std::sqrt(0.1) / 2, 1e-9));
+  CHECK_THAT(largest, WithinAbs(std::sqrt(0.1) / 2, 1e-9));
 }

@@ -196,45 +196,12 @@ to = 1
 
 TEST_CASE("Curves of tori end where those of folds and period doublings tell it", "[cycles]") {
   // A fixed point of trace q and determinant b: b = -1 - q, and a second multiplier -1 at b = 1.
-  const auto flips = traced_of(R"case(
-[model]
-kind = "map"
-[model.parameters]
-b = 0.5
-q = -1.7
-[model.equations]
-x = "y"
-y = "-b*x + q*y - 0.4*x^2*y + 0.3*x*y"
-[branch]
-curve = "period_doubling"
-parameters = ["b", "q"]
-window = [-0.5, 1.5]
-from = -3
-to = -1
-)case");
+  const auto flips = traced_of(doublings_of_map);
   REQUIRE(flips.size() == 1);
   check_values(at(flips, PointType::resonance_1_2, "q"), {-2}, 1e-8);
   CHECK(at(flips, PointType::fold_flip, "q").empty());
   // x = y, x^2 = mu: a fold at mu = 0, of multipliers 1 and b.
-  const auto folds = traced_of(R"case(
-[model]
-kind = "map"
-[model.parameters]
-mu = 0.1
-b = 0.5
-[model.equations]
-x = "y"
-y = "-b*x + (1 + b)*y + mu - x^2"
-[model.start]
-x = 0.3
-y = 0.3
-[branch]
-curve = "fold"
-parameters = ["mu", "b"]
-window = [0.1, -0.1]
-from = 0.5
-to = 1.5
-)case");
+  const auto folds = traced_of(folds_of_map);
   REQUIRE(folds.size() == 1);
   check_values(at(folds, PointType::resonance_1_1, "b"), {1}, 1e-8);
   // Lorenz' flow of 1984: tori of the doubled cycles end on the curve of doublings.

@@ -54,6 +54,45 @@ inline void check_values(const std::vector<double>& found, const std::vector<dou
     CHECK_THAT(found[i], WithinAbs(wanted[i], margin * std::max(1.0, std::abs(wanted[i]))));
 }
 
+/// Of the fixed point 0 of a map: -1 is a multiplier where q = -1 - b, a double one where b = 1.
+inline const std::string doublings_of_map = R"case(
+[model]
+kind = "map"
+[model.parameters]
+b = 0.5
+q = -1.7
+[model.equations]
+x = "y"
+y = "-b*x + q*y - 0.4*x^2*y + 0.3*x*y"
+[branch]
+curve = "period_doubling"
+parameters = ["b", "q"]
+window = [-0.5, 1.5]
+from = -3
+to = -1
+)case";
+
+/// x = y, x^2 = mu: a fold at mu = 0, of multipliers 1 and b.
+inline const std::string folds_of_map = R"case(
+[model]
+kind = "map"
+[model.parameters]
+mu = 0.1
+b = 0.5
+[model.equations]
+x = "y"
+y = "-b*x + (1 + b)*y + mu - x^2"
+[model.start]
+x = 0.3
+y = 0.3
+[branch]
+curve = "fold"
+parameters = ["mu", "b"]
+window = [0.1, -0.1]
+from = 0.5
+to = 1.5
+)case";
+
 /// x' = g x - turn y, y' = turn x + g y: cycles are the circles on which g(x^2 + y^2, mu) vanishes.
 inline std::string circles(const std::string& g, const std::string& turn, const std::string& rest) {
   return "[model.parameters]\nmu = 0\n[model.definitions]\ns = \"x^2 + y^2\"\ng = \"" + g + "\"\nturn = \"" +

@@ -168,8 +168,7 @@ Handles start_from(const BranchHandle& handle, std::size_t point, bool forward, 
     if (handle.problem()) handle.problem()->activate(options.parameter);
   }
   if (const continuation::OrbitProblem* orbits = orbits_of(handle.traced())) {
-    const auto own =
-        orbits->about(orbits->frame(guess.regime).mesh, orbits->orbit(guess.unknowns), guess.parameters);
+    const auto own = about(*orbits, guess.unknowns, guess.parameters, guess.regime);
     guess.regime = {};
     return trace_starts(handle, {{own, guess}}, options, progress);
   }

@@ -17,12 +17,13 @@ namespace arcslip::continuation {
 CurveStart curve_meeting(const ExtendedProblem& curve, const BranchPoint& point);
 
 /// The same of special points of cycles and maps, by the problem on any base and the extras to begin with: of
-/// folds and period doublings at fold-flip points, of Neimark-Sacker points and either at `resonance_1_1`
-/// and `resonance_1_2`. None elsewhere.
+/// folds and period doublings at fold-flip points, of folds and Neimark-Sacker points at
+/// `fold_neimark_sacker`, of the latter and either at `resonance_1_1` and `resonance_1_2`. None elsewhere.
 struct MultiplierCurve {
   std::function<std::unique_ptr<ExtendedProblem>(const Problem& base)> make;
   Vector extras;
 };
-std::optional<MultiplierCurve> multiplier_curve_meeting(const ExtendedProblem& curve, PointType type);
+std::optional<MultiplierCurve> multiplier_curve_meeting(const ExtendedProblem& curve, PointType type,
+                                                        const BasePoint& at);
 
 }  // namespace arcslip::continuation

@@ -49,6 +49,12 @@ struct OrbitStart {
   bool both_ways = false;  ///< along a direction and against it, or to both ends of the range
 };
 
+/// The problem with one of its solutions for its only frame.
+inline std::shared_ptr<OrbitProblem> about(const OrbitProblem& problem, const Vector& u, const Vector& p,
+                                           const Regime& regime) {
+  return problem.about(problem.frame(regime).mesh, problem.orbit(u), p);
+}
+
 /// One close to an orbit: as its values at the nodes of the problem's first frame tell.
 OrbitStart start_from(std::shared_ptr<const OrbitProblem> problem, const Matrix& orbit, double duration,
                       const Vector& p);

@@ -1,8 +1,7 @@
 #pragma once
 
 // Whether a branch goes round a loop that its start is not on: a step then went over to another branch; or
-// along solutions at one value of the parameter; or to and fro in one place. Nothing
-// would end any of these.
+// along solutions at one value of the parameter; or to and fro in one place. Nothing would end any of these.
 
 #include <optional>
 #include <vector>
