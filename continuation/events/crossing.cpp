@@ -13,6 +13,7 @@ constexpr double too_near = 1e-3;    // of the larger determinant at the ends: f
 constexpr double off_course = 0.05;  // of the way to its neighbours: a point is expected within
 constexpr double widest = 0.05;      // of the step: from how far a branch point is looked at
 constexpr int most_narrowings = 10;
+constexpr Index most_multiple = 6;  // of a zero: as many places show it
 constexpr double rounding = 1e-12;  // of the determinant's slope at a branch point: what is left on the next
 constexpr double a_little_way = 1e-3;  // of the largest step: on it the determinant changes from that of a
 constexpr double much_less = 1e-5;     // branch point by much
@@ -75,19 +76,36 @@ bool CrossingSearch::search() {
   log_here_ = step_.here.log_determinant + std::log(step_.normal.dot(step_.here.tangent));
   log_there_ = corrector_.log_determinant();
   unit_ = std::max(log_here_, log_there_);
-  from_zero_ = std::isinf(log_here_);
+  from_zero_ = std::isinf(log_here_) ? multiplicity_at_start() : 0;
   step_.anchors.clear();
   const auto at = [this](double s) { return determinant_at(s); };
   const std::optional<Node> from = at(0);
   const std::optional<Node> to = at(step_.distance);
   if (!from || !to) return false;
-  if (from_zero_ && std::abs(to->value) < rounding * std::abs(from->value)) return false;  // on another one
+  if (from_zero_ > 0 && std::abs(to->value) < rounding * std::abs(from->value))
+    return false;  // on another one
   const FirstZero found = first_zero(*from, *to, at, tolerances_.one_branch_point * step_.distance);
   if (found.kind == FirstZero::Kind::none) return true;
-  return found.kind != FirstZero::Kind::unknown && locate(found.before, found.behind);
+  if (found.kind != FirstZero::Kind::unknown && locate(found.before, found.behind)) return true;
+  // So near to where several eigenvalues vanish at once that no point is found, or signs are rounding.
+  const bool is_near = found.behind.s - found.before.s <= widest * step_.distance;
+  return is_near && locate(found.before, found.before);
 }
 
-/// The determinant in its unit; in a step that starts on a branch point it is divided by s.
+/// By how the determinant begins.
+int CrossingSearch::multiplicity_at_start() {
+  const double offset = prober_.offset_beside(0);
+  std::array<double, 2> logs{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double way = offset * static_cast<double>(i + 1);
+    if (prober_.linearise_beside(step_.here, step_.slope_from, way) == Correction::cannot_evaluate) return 1;
+    logs[i] = corrector_.log_determinant();
+  }
+  const double order = (logs[1] - logs[0]) / std::log(2.0);
+  return std::isfinite(order) ? std::max(1, static_cast<int>(std::lround(order))) : 1;
+}
+
+/// The determinant in its unit; in a step that starts on a branch point it is divided by s to its power.
 std::optional<Node> CrossingSearch::determinant_at(double s) {
   const auto sized = [this](double sign, double log) { return sign * std::exp(log - unit_); };
   const bool inside = s > 0 && s < step_.distance;
@@ -101,9 +119,10 @@ std::optional<Node> CrossingSearch::determinant_at(double s) {
   const double offset = prober_.offset_beside(s);
   if (prober_.linearise_beside(point, slope, offset) != Correction::cannot_evaluate)
     node.slope = (sized(corrector_.orientation(), corrector_.log_determinant()) - node.value) / offset;
-  if (!from_zero_) return node;
-  if (s == 0) return Node{0, node.slope, std::nan("")};
-  return Node{s, node.value / s, (node.slope - node.value / s) / s};
+  if (from_zero_ == 0) return node;
+  if (s == 0) return Node{0, node.slope / std::pow(offset, from_zero_ - 1), std::nan("")};
+  const double power = std::pow(s, from_zero_);
+  return Node{s, node.value / power, (node.slope - from_zero_ * node.value / s) / power};
 }
 
 /// A point that lies where its neighbours let expect it.
@@ -120,20 +139,48 @@ bool CrossingSearch::probe_between(double s) {
 /// Locates a branch point by polynomials from both sides, where the branch is still regular.
 bool CrossingSearch::locate(Node before, Node behind) {
   const bool changes = before.value * behind.value < 0;
-  const auto value_at = [this](double place) -> std::optional<double> {
-    const std::optional<Node> node = determinant_at(place);
-    return node ? std::optional(node->value) : std::nullopt;
-  };
   const double sign_behind = changes ? behind.value : step_.there.orientation;
   double s = changes ? zero_of_cubic(before, behind) : 0.5 * (before.s + behind.s);
   for (double radius = widest * step_.distance; radius > tolerances_.nearest_look * step_.distance;
        radius *= 0.25) {
     if (changes && !narrow(before, behind, s, radius)) return false;
-    const ZeroRange range{changes ? before.s : 0, changes ? behind.s : step_.distance, s, !changes, 0,
-                          step_.distance};
-    const std::optional<RemoteZero> zero = remote_zero(value_at, range, radius);
+    ZeroRange range{changes ? before.s : 0, changes ? behind.s : step_.distance, s, changes ? 1 : 2, 0,
+                    step_.distance};
+    Values known;
+    std::optional<RemoteZero> zero = remote_zero(values(known), range, radius);
     if (zero && zero->agrees && take(*zero, sign_behind)) return true;
+    if (take_multiple(range, radius, known)) return true;
     if (zero) s = zero->s;
+  }
+  return false;
+}
+
+/// The determinant, where it is not known yet.
+std::function<std::optional<double>(double s)> CrossingSearch::values(Values& known) {
+  return [this, &known](double place) {
+    const auto [entry, is_new] = known.try_emplace(place);
+    if (!is_new) return entry->second;
+    const std::optional<Node> node = determinant_at(place);
+    if (node) entry->second = node->value;
+    return entry->second;
+  };
+}
+
+/// Where several eigenvalues vanish at once: the least multiplicity of which the polynomials agree. Next to
+/// such a point signs are rounding, and nothing but the guess tells where it is.
+bool CrossingSearch::take_multiple(ZeroRange range, double radius, Values& known) {
+  const Index most = std::min<Index>(most_multiple, corrector_.size());
+  range.low = 0;
+  range.high = step_.distance;
+  for (range.multiplicity = 2; range.multiplicity <= most; ++range.multiplicity) {
+    const std::optional<RemoteZero> zero = remote_zero(values(known), range, radius);
+    if (!zero || !zero->agrees) continue;
+    for (const double place : zero->places) {  // the determinant is too small there to tell that they serve
+      if (probe_between(place)) prober_.anchor();
+    }
+    const double last = zero->places.back();
+    const bool turns = last < zero->s && range.multiplicity % 2 == 1;
+    if (take(*zero, (turns ? -1 : 1) * known[last].value_or(0))) return true;
   }
   return false;
 }

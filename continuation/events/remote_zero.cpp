@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "arcslip/zero_between.hpp"
@@ -45,6 +46,26 @@ std::array<double, count> places_around(const ZeroRange& range, double radius) {
   return places;
 }
 
+/// Of a function with a multiple zero the root that passes it straight.
+double straightened(double value, double way, int multiplicity) {
+  if (multiplicity == 1) return value;
+  return std::copysign(std::pow(std::abs(value), 1.0 / multiplicity), multiplicity % 2 == 0 ? way : value);
+}
+
+/// Whether the values are as large as they are far from the zero: of a lower multiplicity those nearest to it
+/// are larger by a fifth or more, and were they given a sign at the guess they have a zero there in any case.
+bool is_straight(const std::array<double, count>& places, const std::array<double, count>& values, double s) {
+  constexpr double alike = 1.2;
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double slope = std::abs(values[i] / (places[i] - s));
+    least = std::min(least, slope);
+    most = std::max(most, slope);
+  }
+  return most < alike * least;
+}
+
 }  // namespace
 
 std::optional<RemoteZero> remote_zero(const std::function<std::optional<double>(double s)>& f,
@@ -55,9 +76,7 @@ std::optional<RemoteZero> remote_zero(const std::function<std::optional<double>(
   for (std::size_t i = 0; i < count; ++i) {
     const std::optional<double> value = f(zero.places[i]);
     if (!value) return std::nullopt;
-    // The root of a double zero passes it straight.
-    values[i] =
-        range.touches ? std::copysign(std::sqrt(std::abs(*value)), zero.places[i] - range.guess) : *value;
+    values[i] = straightened(*value, zero.places[i] - range.guess, range.multiplicity);
   }
   const double low = std::max(range.low, zero.places.front());
   const double high = std::min(range.high, zero.places.back());
@@ -75,7 +94,8 @@ std::optional<RemoteZero> remote_zero(const std::function<std::optional<double>(
   const std::optional<double> other = zero_of(1, count - 1);
   if (!best) return std::nullopt;
   zero.s = *best;
-  zero.agrees = other && std::abs(*best - *other) <= agreement * (range.end - range.begin);
+  zero.agrees = other && std::abs(*best - *other) <= agreement * (range.end - range.begin) &&
+                (range.multiplicity == 1 || is_straight(zero.places, values, zero.s));
   zero.weights = weights(zero.places, zero.s, false);
   zero.slopes = weights(zero.places, zero.s, true);
   return zero;

@@ -104,6 +104,34 @@ class Cells : public Problem {
   double k_;
 };
 
+/// v_i' = v_i - v_i^3/3 + I + d (sum_j v_j - N v_i), equal cells of which all are coupled.
+class EqualCells : public Problem {
+ public:
+  EqualCells(Index count, double d) : count_(count), d_(d) {}
+  Index size() const override { return count_; }
+  std::vector<std::string> parameter_names() const override { return {"I"}; }
+  bool is_equilibrium() const override { return true; }
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
+    const auto n = static_cast<double>(count_);
+    if (out.residual != nullptr)
+      *out.residual = ((1 - n * d_) * u - u.cwiseAbs2().cwiseProduct(u) / 3).array() + p(0) + d_ * u.sum();
+    if (out.jacobian != nullptr) {
+      out.jacobian->setConstant(d_);
+      out.jacobian->diagonal().array() += 1 - n * d_ - u.array().square();
+    }
+    if (out.parameter_jacobian != nullptr) out.parameter_jacobian->setOnes();
+    return true;
+  }
+  /// v where all but one eigenvalue of equal cells vanish, and I there.
+  double critical() const { return std::sqrt(1 - static_cast<double>(count_) * d_); }
+  double critical_input() const { return std::pow(critical(), 3) / 3 - critical(); }
+
+ private:
+  Index count_;
+  double d_;
+};
+
 std::vector<double> lambdas(const std::vector<BranchPoint>& points) {
   std::vector<double> all;
   for (const BranchPoint& point : points) all.push_back(point.parameters(0));
@@ -270,4 +298,26 @@ TEST_CASE("A polygon's group breaks into its halves and by its mirrors", "[multi
   std::vector<Symmetry> half = Cells(6, 0, 1).symmetries();
   half.resize(2);
   CHECK_THROWS_AS(SymmetryGroup(half), std::logic_error);
+}
+
+TEST_CASE("Several eigenvalues that vanish at once are located and passed without known symmetries",
+          "[multiple points]") {
+  const Index count = GENERATE(2, 3, 4, 5);
+  const double d = GENERATE(0.1, -0.1);
+  const double max_step = GENERATE(0.2, 0.1, 0.09, 0.05, 0.02, 0.01);
+  CAPTURE(count, d, max_step);
+  const EqualCells problem(count, d);
+  TraceOptions options = over("I", -3, 3);
+  options.max_step = max_step;
+  const Branch branch = trace(problem, {Vector::Constant(count, -3.0), vector_of({-3})}, options);
+  CHECK(branch.stop == Stop::reached_end);
+  const std::vector<BranchPoint> points = of_type(branch, PointType::branch_point);
+  REQUIRE(points.size() == 2);
+  for (const double sign : {1.0, -1.0}) {
+    const BranchPoint& point = points[sign < 0 ? 0 : 1];
+    CHECK_THAT(point.parameters(0), WithinAbs(sign * problem.critical_input(), 1e-10));
+    CHECK((point.unknowns.array() - sign * problem.critical()).abs().maxCoeff() < 1e-9);
+  }
+  REQUIRE(of_type(branch, PointType::fold).size() == 2);
+  CHECK_THAT(of_type(branch, PointType::fold)[0].parameters(0), WithinAbs(2.0 / 3, 1e-10));
 }

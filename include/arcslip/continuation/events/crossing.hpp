@@ -2,6 +2,10 @@
 
 // Branch points within a step: zeros of det [J F_p; normal^T], a smooth function of the way along the branch.
 
+#include <functional>
+#include <map>
+#include <optional>
+
 #include "arcslip/continuation/events/first_zero.hpp"
 #include "arcslip/continuation/events/remote_zero.hpp"
 #include "arcslip/continuation/path/prober.hpp"
@@ -32,10 +36,15 @@ class CrossingSearch {
   void rescale(double max_step);
 
  private:
+  using Values = std::map<double, std::optional<double>>;  // by places
+
   std::optional<Node> determinant_at(double s);
   [[nodiscard]] bool probe_between(double s);
   [[nodiscard]] bool narrow(Node& before, Node& behind, double& s, double radius);
   [[nodiscard]] bool locate(Node before, Node behind);
+  std::function<std::optional<double>(double s)> values(Values& known);
+  [[nodiscard]] bool take_multiple(ZeroRange range, double radius, Values& known);
+  int multiplicity_at_start();
   [[nodiscard]] bool take(const RemoteZero& zero, double sign_behind);
 
   Corrector& corrector_;
@@ -46,7 +55,7 @@ class CrossingSearch {
   double log_here_ = 0;
   double log_there_ = 0;
   double unit_ = 0;
-  bool from_zero_ = false;  // the step starts on a branch point
+  int from_zero_ = 0;  // of the branch point on which the step starts its multiplicity, else 0
   Vector expected_;
   Vector work_;
 };

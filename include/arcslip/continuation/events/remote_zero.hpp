@@ -22,12 +22,12 @@ struct RemoteZero {
 
 /// What is known of where the zero lies.
 struct ZeroRange {
-  double low;    ///< between these two the function has no other,
-  double high;   ///< see `low`
-  double guess;  ///< of the zero
-  bool touches;  ///< and this one is double
-  double begin;  ///< the function is evaluated between these two only
-  double end;    ///< see `begin`
+  double low;        ///< between these two the function has no other,
+  double high;       ///< see `low`
+  double guess;      ///< of the zero
+  int multiplicity;  ///< of this one
+  double begin;      ///< the function is evaluated between these two only
+  double end;        ///< see `begin`
 };
 
 /// Evaluates `f` within `radius` of the guess or, at an end, beside it. Nothing where f has no value or the
