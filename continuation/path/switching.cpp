@@ -114,14 +114,22 @@ Guess settled(const Problem& problem, Index active, const BranchPoint& point, co
   return {found.unknowns, found.parameters, at.regime, {}};
 }
 
-/// Both ways along each branch through a branch point, from where its own conditions have it.
+/// Both ways along each other branch through a branch point, from where its own conditions have it; along
+/// this one as well, but where others are told by it. `untold` becomes true where the branches are not known.
 std::vector<Guess> ways_through(const Problem& problem, Index active, const BranchPoint& point,
-                                const Tolerances& tolerances) {
-  const Guess at = settled(problem, active, point, tolerances);
-  const auto form = branch_point_form(problem, active, at, tolerances);
+                                const Tolerances& tolerances, bool& untold) {
+  const Guess along{point.unknowns, point.parameters, point.regime, point.tangent};
+  const auto multiple = multiple_point(problem, active, along, tolerances);
+  const Guess at = multiple ? multiple->at : settled(problem, active, point, tolerances);
+  std::vector<Vector> directions;
+  if (multiple) {
+    directions = multiple->directions;
+    untold = untold || directions.empty();
+  } else if (const auto form = branch_point_form(problem, active, at, tolerances)) {
+    directions.assign(form->directions.begin(), form->directions.end());
+  }
   std::vector<Guess> ways;
-  if (!form) return ways;
-  for (const Vector& direction : form->directions) {
+  for (const Vector& direction : directions) {
     if (direction.size() == 0) continue;
     ways.push_back({at.unknowns, at.parameters, at.regime, direction});
     ways.push_back({at.unknowns, at.parameters, at.regime, -direction});
@@ -131,10 +139,10 @@ std::vector<Guess> ways_through(const Problem& problem, Index active, const Bran
 
 /// What leaves a special point among the solutions of one problem.
 std::vector<Guess> other_ways_in(const Problem& problem, Index active, const BranchPoint& point,
-                                 const Tolerances& tolerances) {
+                                 const Tolerances& tolerances, bool& untold) {
   std::vector<Guess> ways;
   if (point.type == PointType::branch_point) {
-    ways = ways_through(problem, active, point, tolerances);
+    ways = ways_through(problem, active, point, tolerances, untold);
   } else if (point.type == PointType::regime_switch) {
     ways = leaving_pieces(problem, active, {point.unknowns, point.parameters, point.regime, {}}, tolerances);
   }
@@ -148,12 +156,13 @@ std::vector<Guess> other_ways_in(const Problem& problem, Index active, const Bra
 
 /// What leaves a special point, whatever symmetries it loses there.
 std::vector<Guess> all_other_ways(SymmetricBranches& symmetric, Index active, const BranchPoint& point,
-                                  const Tolerances& tolerances) {
+                                  const Tolerances& tolerances, bool& untold) {
   if (point.type != PointType::branch_point)
-    return other_ways_in(symmetric.whole(), active, point, tolerances);
+    return other_ways_in(symmetric.whole(), active, point, tolerances, untold);
   std::vector<Guess> ways;
   for (const Problem* problem : symmetric.leaving(point)) {
-    for (Guess& way : other_ways_in(*problem, active, point, tolerances)) ways.push_back(std::move(way));
+    for (Guess& way : other_ways_in(*problem, active, point, tolerances, untold))
+      ways.push_back(std::move(way));
   }
   return ways;
 }
@@ -198,6 +207,14 @@ bool passes(const std::vector<Branch>& branches, const Problem& problem, const G
   });
 }
 
+/// What is said where several eigenvalues vanish at once and directions are not told.
+std::string untold_branches(const std::string& parameter, double at) {
+  return fmt::format(
+      "at {} = {:.10g} several eigenvalues vanish at once, and the branches that leave there are not told by "
+      "derivatives of the second and third order; they were not followed",
+      parameter, at);
+}
+
 /// With a point of each branch at the solution's value of the parameter.
 TraceOptions landing_on(const Guess& solution, const Problem& problem, TraceOptions options) {
   options.stop_at.push_back(solution.parameters(index_of(problem.parameter_names(), options.parameter)));
@@ -223,7 +240,9 @@ class Network {
     }
     for (const BranchPoint& point : points) {
       if (!meets_others(point)) continue;
-      std::vector<Guess> ways = all_other_ways(symmetric_, active_, point, options_.tolerances);
+      bool untold = false;
+      std::vector<Guess> ways = all_other_ways(symmetric_, active_, point, options_.tolerances, untold);
+      if (untold) untold_.push_back(point.parameters(active_));
       if (images && point.type == PointType::branch_point && ways.size() > 1) ways.resize(1);
       for (Guess& way : ways) waiting_.push_back(std::move(way));
     }
@@ -270,6 +289,8 @@ class Network {
     if (branch.stop == Stop::closed_loop) map_.pass(branch.points.back());
     if (branch.stop == Stop::own_image) pass_settled(within, branch.points.back());
     leave(branch.points);
+    for (const double at : untold_) branch.warn(untold_branches(options_.parameter, at));
+    untold_.clear();
     branches_.push_back(std::move(branch));
   }
 
@@ -278,7 +299,8 @@ class Network {
   void pass_settled(const Problem& within, const BranchPoint& point) {
     double straightest = 0.5;
     std::optional<Way> best;
-    for (const Guess& guess : ways_through(within, active_, point, options_.tolerances)) {
+    bool untold = false;
+    for (const Guess& guess : ways_through(within, active_, point, options_.tolerances, untold)) {
       Way way = map_.way(guess.unknowns, guess.parameters, guess.direction);
       const Way arrival = map_.way(guess.unknowns, guess.parameters, point.arriving());
       const double along = std::abs(way.direction.dot(arrival.direction));
@@ -318,6 +340,7 @@ class Network {
   Map map_;
   std::vector<Branch> branches_;
   std::deque<Guess> waiting_;
+  std::vector<double> untold_;  // values of the parameter where branches meet that are not known
   bool interrupted_ = false;
 };
 
@@ -326,7 +349,8 @@ class Network {
 std::vector<Guess> other_ways(const Problem& problem, const std::string& parameter, const BranchPoint& point,
                               const Tolerances& tolerances) {
   SymmetricBranches symmetric(problem, tolerances);
-  return all_other_ways(symmetric, index_of(problem.parameter_names(), parameter), point, tolerances);
+  bool untold = false;
+  return all_other_ways(symmetric, index_of(problem.parameter_names(), parameter), point, tolerances, untold);
 }
 
 std::string more_branches(std::size_t followed, const std::string& parameter, double at) {

@@ -1,5 +1,6 @@
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -100,6 +101,129 @@ Matrix BranchPointProblem::null_space() const {
   Matrix basis(scale_.size() + 1, 2);
   basis << right_[0].head(basis.rows()), right_[1].head(basis.rows());
   return null_scale().asDiagonal() * basis;
+}
+
+namespace {
+
+Matrix orthonormal(const Matrix& columns) {
+  return Eigen::HouseholderQR<Matrix>(columns).householderQ() *
+         Matrix::Identity(columns.rows(), columns.cols());
+}
+
+}  // namespace
+
+bool DoublePoint::solve_borders() {
+  linear_.fill(*solver_, scale_.head(n_));
+  solver_->columns() << linear_.parameter_jacobian().col(active_) * scale_(n_), columns_;
+  solver_->rows() = border_.topRows(n_).transpose();
+  solver_->corner().setZero();
+  solver_->corner().col(0) = border_.row(n_).transpose();
+  if (solver_->factor() == 0) return false;
+  left_.resize(n_, 2);
+  right_.resize(n_ + 1, 3);
+  conditions_.resize(2, 3);
+  Vector side;
+  for (Index j = 0; j < 3; ++j) {
+    side = Vector::Unit(n_ + 3, n_ + j);
+    solver_->solve(side);
+    right_.col(j) = side.head(n_ + 1);
+    conditions_.col(j) = side.tail(2);
+    if (j == 0) continue;
+    side = Vector::Unit(n_ + 3, n_ + j);
+    solver_->solve_transposed(side);
+    left_.col(j - 1) = side.head(n_);
+  }
+  return left_.allFinite() && right_.allFinite();
+}
+
+bool DoublePoint::settle() {
+  constexpr double longest = 1e6;  // in units of the matrix
+  if (!linear_.evaluate(at_.unknowns, at_.parameters, at_.regime)) return false;
+  Vector unknowns(n_);
+  Vector all(at_.parameters.size());
+  problem_.scale(at_.unknowns, at_.parameters, unknowns, all);
+  scale_ << unknowns, all(active_);
+  const double size = column_size(linear_, unknowns);
+  left_.resize(n_, 2);
+  right_.resize(n_ + 1, 3);
+  for (int j = 0; j < 2; ++j) left_.col(j) = spread(n_, 1 + 2 * j);
+  for (int j = 0; j < 3; ++j) right_.col(j) = spread(n_ + 1, 2 + 2 * j);
+  for (int i = 0; i < 4; ++i) {  // inverse iteration
+    columns_ = size * orthonormal(left_);
+    border_ = orthonormal(right_);
+    if (!solve_borders()) return false;
+  }
+  // A solution with a right-hand side without preference is as long as the inverse is large.
+  Vector side = spread(n_ + 3, 1);
+  side.tail(3) /= size;
+  solver_->solve(side);
+  return size * side.norm() < longest;
+}
+
+bool DoublePoint::rows(const Vector& d, double h, Matrix& out) {
+  const Vector dp = parameters(d(n_));
+  Matrix all;
+  if (!second_.contract(at_.unknowns + h * d.head(n_), at_.parameters + h * dp, at_.regime, left_, d.head(n_),
+                        dp, all))
+    return false;
+  out.resize(n_ + 1, 2);
+  out << all.topRows(n_), all.row(n_ + active_);
+  out = scale_.asDiagonal() * out;
+  return out.allFinite();
+}
+
+bool DoublePoint::set_forms() {
+  for (Index j = 0; j < 3; ++j) {
+    Matrix row;
+    if (!rows(scale_.cwiseProduct(right_.col(j)), 0, row)) return false;
+    for (std::size_t i = 0; i < 2; ++i)
+      forms_[i].row(j) = row.col(static_cast<Index>(i)).transpose() * right_;
+  }
+  for (Eigen::Matrix3d& form : forms_) form = 0.5 * (form + form.transpose().eval());
+  return true;
+}
+
+void DoublePoint::correct() {
+  Matrix gradients(6, 3);
+  gradients << forms_[0], forms_[1];
+  Vector values(6);
+  values << conditions_.row(0).transpose(), conditions_.row(1).transpose();
+  Vector correction = Vector::Zero(n_ + 3);
+  correction.head(n_) = -linear_.residual();
+  solver_->solve(correction);
+  const Vector along = gradients.completeOrthogonalDecomposition().solve(values);
+  const Vector all = scale_.cwiseProduct(correction.head(n_ + 1) + right_ * along);
+  at_.unknowns += all.head(n_);
+  at_.parameters(active_) += all(n_);
+}
+
+Eigen::Vector2d DoublePoint::cubic(const Eigen::Vector3d& y) {
+  const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::nan(""));
+  const Vector d = direction(y);
+  const Vector dp = parameters(d(n_));
+  const double step = 0.02 / second_.length(at_.unknowns, at_.parameters, d.head(n_), dp);
+  Vector bend;
+  const auto first_at = [&](double h, Vector& out) {
+    if (!linear_.evaluate(at_.unknowns + h * d.head(n_), at_.parameters + h * dp, at_.regime)) return false;
+    out.resize(n_);
+    linear_.multiply(d.head(n_), out);
+    out += linear_.parameter_jacobian().col(active_) * d(n_);
+    return true;
+  };
+  Matrix row;
+  Vector third;
+  const auto second_at = [&](double h, Vector& out) {
+    if (!rows(d, h, row)) return false;
+    out = row.transpose() * d.cwiseQuotient(scale_);
+    return true;
+  };
+  if (!std::isfinite(differentiate(first_at, step, bend).error) ||
+      !std::isfinite(differentiate(second_at, step, third).error) || !rows(d, 0, row))
+    return none;
+  Vector response = Vector::Zero(n_ + 3);
+  response.head(n_) = -bend;
+  solver_->solve(response);
+  return (third + 3 * row.transpose() * response.head(n_ + 1)) / 6;
 }
 
 }  // namespace arcslip::continuation

@@ -104,6 +104,14 @@ class Cells : public Problem {
   double k_;
 };
 
+/// The same problem, of which no symmetry is known.
+template <class Base>
+class Unaware : public Base {
+ public:
+  using Base::Base;
+  std::vector<Symmetry> symmetries() const override { return {}; }
+};
+
 /// v_i' = v_i - v_i^3/3 + I + d (sum_j v_j - N v_i), equal cells of which all are coupled.
 class EqualCells : public Problem {
  public:
@@ -320,4 +328,60 @@ TEST_CASE("Several eigenvalues that vanish at once are located and passed withou
   }
   REQUIRE(of_type(branch, PointType::fold).size() == 2);
   CHECK_THAT(of_type(branch, PointType::fold)[0].parameters(0), WithinAbs(2.0 / 3, 1e-10));
+}
+
+TEST_CASE("All branches of three equal cells are followed without known symmetries", "[multiple points]") {
+  const double d = GENERATE(0.1, -0.1, 0.02);
+  const double max_step = GENERATE(0.1, 0.03);
+  CAPTURE(d, max_step);
+  const EqualCells problem(3, d);
+  TraceOptions options = over("I", -3, 3);
+  options.max_step = max_step;
+  const std::vector<Branch> all =
+      trace_connected(problem, {Vector::Constant(3, -3.0), vector_of({-3})}, options);
+  // In phase; two cells alike, of each three; and those that join these.
+  REQUIRE(all.size() == 5);
+  for (const Branch& branch : all) CHECK(branch.warning.empty());
+  for (std::size_t i = 1; i < 5; ++i) CHECK(all[i].stop == Stop::closed_loop);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const bool is_there = std::any_of(all.begin() + 1, all.end(), [&](const Branch& branch) {
+      return std::all_of(branch.points.begin(), branch.points.end(), [&](const BranchPoint& point) {
+        return std::abs(point.unknowns((i + 1) % 3) - point.unknowns((i + 2) % 3)) < 1e-6;
+      });
+    });
+    CHECK(is_there);
+  }
+}
+
+TEST_CASE("A polygon's branches leave the double point without known symmetries", "[multiple points]") {
+  const int corners = GENERATE(3, 4);
+  CAPTURE(corners);
+  const double b = corners == 3 ? 1 : 0.5;
+  const Unaware<Polygon> problem(corners, b);
+  const std::vector<Branch> all =
+      trace_connected(problem, {vector_of({0, 0}), vector_of({-0.5})}, over("lambda", -0.5, 0.6));
+  REQUIRE(all.size() == static_cast<std::size_t>(1 + 2 * corners));
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    CHECK(is_end(all[i].stop));
+    const BranchPoint& last = all[i].points.back();
+    const double turns = corners * std::atan2(last.unknowns(1), last.unknowns(0));
+    CHECK_THAT(std::sin(turns), WithinAbs(0, 1e-8));
+    const double r = last.unknowns.norm();
+    const double sign = std::cos(turns) > 0 ? 1 : -1;
+    CHECK_THAT(last.parameters(0), WithinAbs(r * r - sign * b * std::pow(r, corners - 2), 1e-9));
+  }
+}
+
+TEST_CASE("Branches that third derivatives do not tell, or of three eigenvalues, are said to be left",
+          "[multiple points]") {
+  const Unaware<Polygon> pentagon(5, 0.3);
+  const std::vector<Branch> of_pentagon =
+      trace_connected(pentagon, {vector_of({0, 0}), vector_of({-0.5})}, over("lambda", -0.5, 0.6));
+  REQUIRE(of_pentagon.size() == 1);
+  CHECK_THAT(of_pentagon[0].warning, ContainsSubstring("several eigenvalues vanish at once"));
+  const EqualCells cells(4, 0.1);
+  const std::vector<Branch> of_cells =
+      trace_connected(cells, {Vector::Constant(4, -3.0), vector_of({-3})}, over("I", -3, 3));
+  REQUIRE(of_cells.size() == 1);
+  CHECK_THAT(of_cells[0].warning, ContainsSubstring("several eigenvalues vanish at once"));
 }
