@@ -169,9 +169,12 @@ class Derivatives {
   Vector here_;
 };
 
+/// Where eigenvalues are one and the same: as well as points are located.
+constexpr double one_value = 1e-7;  // of the largest
+
 /// The vector of the eigenvalue nearest to j omega, of length 1, or of the transposed matrix and -j omega;
-/// omega becomes its size.
-ComplexVector vector_at(const Operator& matrix, const Vector& a, double sign, double& omega) {
+/// omega becomes its size. `equal` counts those that are equal to it.
+ComplexVector vector_at(const Operator& matrix, const Vector& a, double sign, double& omega, int& equal) {
   ComplexMatrix vectors;
   const ComplexVector values = matrix.eigenvalues(a, sign < 0, vectors);
   Index best = -1;
@@ -184,6 +187,8 @@ ComplexVector vector_at(const Operator& matrix, const Vector& a, double sign, do
   }
   if (best < 0) return {};
   omega = std::abs(values(best).imag());
+  const double near = one_value * values.cwiseAbs().maxCoeff();
+  equal = static_cast<int>(((values.array() - values(best)).abs() <= near).count());
   return vectors.col(best).normalized();
 }
 
@@ -194,9 +199,11 @@ std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, dou
   Vector a;
   std::optional<Operator> matrix;
   if (!derivatives.linear(a, matrix)) return std::nullopt;
-  const ComplexVector q = vector_at(*matrix, a, 1, omega);
+  int pairs = 1;
+  const ComplexVector q = vector_at(*matrix, a, 1, omega, pairs);
+  if (pairs > 1) return HopfForm{omega, std::nan(""), 0, pairs};
   double same = omega;
-  ComplexVector p = vector_at(*matrix, a, -1, same);
+  ComplexVector p = vector_at(*matrix, a, -1, same, pairs);
   if (q.size() == 0 || p.size() == 0) return std::nullopt;
   p /= std::conj(p.dot(q));  // p^H q = 1
 

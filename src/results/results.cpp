@@ -117,7 +117,11 @@ void add_hopf_form(const TracedBranch& traced, const BranchPoint& point, ordered
       continuation::hopf_form(traced.problem(), {point.unknowns, point.parameters, point.regime, {}});
   if (!form) return;
   special["omega"] = form->omega;
-  special["lyapunov"] = form->lyapunov;
+  if (form->pairs > 1) {
+    special["pairs"] = form->pairs;
+  } else {
+    special["lyapunov"] = form->lyapunov;
+  }
 }
 
 /// How what leaves a cycle or a fixed point of a map does so.

@@ -111,3 +111,52 @@ TEST_CASE("Where no pair of eigenvalues is imaginary there is no normal form of 
   const Vector parameters = Vector::Zero(static_cast<Index>(cusp.parameter_names().size()));
   CHECK_FALSE(hopf_form(cusp, {Vector::Zero(1), parameters, 0, {}}));
 }
+
+namespace {
+
+/// Three equal oscillators x_i'' = (mu - x_i^2) x_i' - x_i + d (sum of v_j - 3 v_i), v_i = x_i': in phase one
+/// pair is on the axis at mu = 0, out of phase two are at mu = 3 d.
+class EqualOscillators : public Problem {
+ public:
+  static constexpr double d = 0.1;
+  Index size() const override { return 6; }
+  std::vector<std::string> parameter_names() const override { return {"mu"}; }
+  bool is_equilibrium() const override { return true; }
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
+    const Vector x = u.head(3);
+    const Vector v = u.tail(3);
+    if (out.residual != nullptr) {
+      out.residual->head(3) = v;
+      out.residual->tail(3) =
+          ((p(0) - 3 * d - x.array().square()) * v.array() - x.array() + d * v.sum()).matrix();
+    }
+    if (out.jacobian != nullptr) {
+      out.jacobian->setZero();
+      out.jacobian->topRightCorner(3, 3).setIdentity();
+      out.jacobian->bottomRightCorner(3, 3).setConstant(d);
+      for (Index i = 0; i < 3; ++i) {
+        (*out.jacobian)(3 + i, i) = -1 - 2 * x(i) * v(i);
+        (*out.jacobian)(3 + i, 3 + i) += p(0) - 3 * d - x(i) * x(i);
+      }
+    }
+    if (out.parameter_jacobian != nullptr) *out.parameter_jacobian << Vector::Zero(3), v;
+    return true;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Two equal pairs that are on the axis together have no Lyapunov coefficient") {
+  const EqualOscillators problem;
+  const auto at = [&](double mu) {
+    const auto form = hopf_form(problem, {Vector::Zero(6), Vector::Constant(1, mu), 0, {}});
+    REQUIRE(form);
+    CHECK_THAT(form->omega, WithinAbs(1, 1e-9));
+    return *form;
+  };
+  CHECK(at(0).pairs == 1);
+  CHECK(at(0).lyapunov < 0);
+  CHECK(at(3 * EqualOscillators::d).pairs == 2);
+  CHECK(std::isnan(at(3 * EqualOscillators::d).lyapunov));
+}

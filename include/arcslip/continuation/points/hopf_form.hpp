@@ -8,7 +8,8 @@
 //   2 c = p^H (C(q, q, q*) - 2 B(q, A^{-1} B(q, q*)) + B(q*, (2 j omega - A)^{-1} B(q, q))),
 //
 // B and C the second and third derivatives of F. Where l_1 < 0 the point is supercritical: cycles that are
-// stable within the plane leave it where the equilibrium is not.
+// stable within the plane leave it where the equilibrium is not. Where several equal pairs are on the axis
+// together, as symmetries have it, there is no such plane and no l_1.
 
 #include <optional>
 
@@ -19,8 +20,9 @@ namespace arcslip::continuation {
 
 struct HopfForm {
   double omega = 0;     ///< > 0
-  double lyapunov = 0;  ///< l_1
+  double lyapunov = 0;  ///< l_1; nan of several pairs
   double terms = 0;     ///< the sum of the sizes of its three terms
+  int pairs = 1;        ///< how many are at +-j omega
 };
 
 /// At a Hopf point of an equilibrium, of the pair of eigenvalues nearest to +-j omega or, where that is
