@@ -294,6 +294,15 @@ Complex torus_multiplier(const Problem& problem, const Guess& at, double duratio
   return nearest;
 }
 
+/// Whether another multiplier is there as well: there is no coefficient then.
+bool is_double(const Problem& problem, const Guess& at, Complex multiplier, double duration) {
+  constexpr double same = 1e-6;  // of ln mu: as well as the point is located, and far above rounding
+  ComplexVector values;
+  if (!problem.eigenvalues(at.unknowns, at.parameters, at.regime, values)) return false;
+  const double angle = multiplier.imag() == 0 ? 0 : std::arg(multiplier);  // rates are those of -mu below 0
+  return ((values.array() * duration - Complex(0, angle)).abs() < same).count() > 1;
+}
+
 }  // namespace
 
 std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType type, const Guess& at,
@@ -314,6 +323,7 @@ std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType 
   if (type == PointType::neimark_sacker)
     multiplier = angle > 0 ? std::polar(1.0, angle) : torus_multiplier(problem, at, rounds.duration());
   if (multiplier == 0.0) return std::nullopt;
+  if (type != PointType::fold && is_double(problem, at, multiplier, rounds.duration())) return std::nullopt;
   std::optional<Reduction> reduction;
   if (type != PointType::fold) reduction.emplace(rounds, multiplier);
   Vector numbers;

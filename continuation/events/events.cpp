@@ -64,7 +64,8 @@ void StepSearch::note(Event event) {
 
 void StepSearch::note(const EventKind& kind, PointType type, Index index, const Zero& zero) {
   if (zero.state == Zero::State::failed) fail();
-  if (zero.state == Zero::State::found && solved()) note({&kind, type, index, zero.s});
+  if (zero.state == Zero::State::found && solved())
+    note({&kind, type, index, zero.s, true, 0, zero.touches});
 }
 
 void StepSearch::note_jump(const EventKind& kind, PointType type, Index index, const Zero& zero) {

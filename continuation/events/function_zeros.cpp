@@ -1,8 +1,10 @@
 // Zeros of functions without derivatives: of the problem's tests and of the user's.
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "arcslip/continuation/events/remote_zero.hpp"
 #include "arcslip/continuation/events/step_search.hpp"
 
 namespace arcslip::continuation {
@@ -29,6 +31,31 @@ std::optional<Known> known_by(StepSearch& step, std::size_t which, double end, b
   return std::nullopt;
 }
 
+/// Of as many factors as there are multipliers, of which two may vanish at once, as symmetries have it.
+bool is_product(PointType type) {
+  return type == PointType::period_doubling || type == PointType::symmetry_breaking;
+}
+
+/// One at which several factors vanish at once, as it shows from afar: next to it values are rounding.
+Zero multiple_zero(StepSearch& step, std::size_t which, const Zero& found) {
+  constexpr double farthest = 0.05;  // of the step: from how far it is looked at
+  constexpr double flat = 1e-3;      // of its steepest: a slope there that is none
+  constexpr int most = 6;            // factors
+  const double end = step.stepper.step().distance;
+  const std::optional<Node> here = step.readings.node(which, found.s);
+  const double size = std::max(std::abs(step.readings.value(which, 0).value_or(0)),
+                               std::abs(step.readings.value(which, end).value_or(0)));
+  if (!found.touches && !(here && std::abs(here->slope) * end < flat * size)) return found;
+  const auto value_at = [&](double place) { return step.readings.value(which, place); };
+  for (double radius = farthest; radius > flat; radius *= 0.5) {
+    for (int multiplicity = 2; multiplicity <= most; ++multiplicity) {
+      const auto zero = remote_zero(value_at, {0, end, found.s, multiplicity, 0, end}, radius * end);
+      if (zero && zero->agrees) return {Zero::State::found, zero->s, multiplicity % 2 == 0};
+    }
+  }
+  return found;
+}
+
 void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
   const auto index = static_cast<Index>(i);
   const std::size_t which = step.readings.function(index);
@@ -49,9 +76,12 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
               zeros.first_of_pieces({which, pieces}, before, may_vanish, 0, to));
   } else if (changes || may_vanish) {
     // A determinant is found to rounding, and runs through decades.
-    ZeroSearch zeros(step.stepper, step.readings,
-                     {.jumps_count = false, .left_over = is_determinant ? 1e-8 : ZeroOptions{}.left_over});
-    const Zero zero = zeros.first(which, before, 0, to, step.tolerances.located);
+    ZeroOptions options{.jumps_count = false, .left_over = is_determinant ? 1e-8 : ZeroOptions{}.left_over};
+    if (is_product(step.watch.type(i))) options.least_touched = 0;
+    ZeroSearch zeros(step.stepper, step.readings, options);
+    Zero zero = zeros.first(which, before, 0, to, step.tolerances.located);
+    if (is_product(step.watch.type(i)) && zero.state == Zero::State::found)
+      zero = multiple_zero(step, which, zero);
     step.note(kind, step.watch.type(i), index, zero);
     if (changes && zero.state == Zero::State::absent && step.watch.type(i) == PointType::period_doubling)
       step.note_jump(
@@ -68,8 +98,9 @@ void search_functions(StepSearch& step, const EventKind& kind) {
 
 void pass_zero(const Event& event, const Passage& passage) {
   const auto i = static_cast<std::size_t>(event.index);
-  passage.behind.functions[i] =
-      passage.watch.piece_of(i) ? sign_of(passage.watch.functions()[i]) : -passage.before.functions[i];
+  passage.behind.functions[i] = passage.watch.piece_of(i) ? sign_of(passage.watch.functions()[i])
+                                : event.touches           ? passage.before.functions[i]
+                                                          : -passage.before.functions[i];
   if (event.told && event.type == PointType::branch_point)
     passage.behind.unstable += passage.real_crossings();
 }

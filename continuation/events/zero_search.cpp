@@ -76,7 +76,7 @@ Zero ZeroSearch::first_between(const Node& a, const Node& b, int sign, double to
                  : Zero{Zero::State::failed};
     case FirstZero::Kind::touch:
       if (divisor.low || divisor.high) return {Zero::State::absent};
-      if (change >= options_.least_touched) return {Zero::State::found, found.before.s};
+      if (change >= options_.least_touched) return {Zero::State::found, found.before.s, true};
       return by_sign(a, b, sign, which);
     case FirstZero::Kind::change:
       return locate(found.before, found.behind, std::max(std::abs(from.value), std::abs(to.value)), value_at);

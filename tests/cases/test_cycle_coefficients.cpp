@@ -191,3 +191,56 @@ to = 0.2
   REQUIRE(folds.size() >= 1);
   CHECK_THAT(folds[0], WithinAbs(0.8, 1e-6));
 }
+
+TEST_CASE("Multipliers -1 that several are at once are told, without a coefficient", "[cycles]") {
+  // Logistic maps, of which all are coupled: in phase -1 at r = 3, all others at r = 3 - n k.
+  for (const int n : {2, 3, 4}) {
+    std::string equations;
+    std::string start;
+    for (int i = 0; i < n; ++i) {
+      const std::string x = "x" + std::to_string(i);
+      equations += x + " = \"r*" + x + "*(1 - " + x + ") + 0.05*(0";
+      for (int j = 0; j < n; ++j) equations += " + x" + std::to_string(j);
+      equations += " - " + std::to_string(n) + "*" + x + ")\"\n";
+      start += x + " = 0.333\n";
+    }
+    for (const char* max_step : {"0.2", "0.1", "0.02"}) {
+      CAPTURE(n, max_step);
+      const auto all = traced_of(
+          "[model]\nkind = \"map\"\n[model.parameters]\nr = 1.5\n[model.equations]\n" + equations +
+          "[model.start]\n" + start +
+          "[branch]\nparameter = \"r\"\nfrom = 1.5\nto = 3.3\n[continuation]\nmax_step = " + max_step + "\n");
+      const auto special = summarize(0, all[0])["special"];
+      std::vector<std::pair<double, bool>> found;
+      for (const auto& point : special) {
+        if (point["type"] == "period_doubling") found.emplace_back(point["r"], point.contains("coefficient"));
+      }
+      REQUIRE(found.size() == 2);
+      CHECK_THAT(found[0].first, WithinAbs(3 - 0.05 * n, 1e-10));
+      CHECK(found[0].second == (n == 2));
+      CHECK_THAT(found[1].first, WithinAbs(3, 1e-10));
+      CHECK(found[1].second);
+    }
+  }
+}
+
+TEST_CASE("Two equal cycles whose periods double at once are told", "[cycles]") {
+  const auto doubling = [](const std::string& equations) {
+    const auto all = traced_of(
+        "[model]\nkind = \"forced\"\nperiod = \"pi\"\n[model.parameters]\na = 0\n[model.equations]\n" +
+        equations + "[cycles]\n[branch]\nparameter = \"a\"\nfrom = 0\nto = 0.6\n");
+    const auto summary = summarize(0, all[0]);
+    for (const auto& point : summary["special"]) {
+      if (point["type"] == "period_doubling")
+        return std::pair(point["a"].get<double>(), point.contains("coefficient"));
+    }
+    return std::pair(std::nan(""), false);
+  };
+  const std::string one = "x = \"y\"\ny = \"-0.1*y - (1 + a*cos(2*t))*x - x^3\"\n";
+  const std::string other = "z = \"w\"\nw = \"-0.1*w - (1 + a*cos(2*t))*z - z^3\"\n";
+  const auto alone = doubling(one);
+  const auto both = doubling(one + other);
+  CHECK(alone.second);
+  CHECK_FALSE(both.second);
+  CHECK_THAT(both.first, WithinAbs(alone.first, 1e-9));
+}

@@ -22,6 +22,7 @@ struct Event {
   double s;               ///< where in the step
   bool told = true;       ///< false if another event at the same place says what it is
   int unstable = 0;       ///< by how many eigenvalues more the branch is unstable behind it
+  bool touches = false;   ///< its function keeps its sign: two eigenvalues are there at once
 };
 
 /// A branch that has come to an event, with the signs before and behind it.

@@ -26,6 +26,7 @@ struct Zero {
   enum class State { found, absent, failed };
   State state = State::absent;  ///< only where it is `found` s counts
   double s = 0;                 ///< where it vanishes
+  bool touches = false;         ///< there, and keeps its sign
 };
 
 /// How many zeros there are, where the values tell.
