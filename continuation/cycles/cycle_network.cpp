@@ -52,12 +52,19 @@ class OrbitNetwork {
       const Waiting next = std::move(waiting_.front());
       waiting_.pop_front();
       const bool doubles = next.point.type == PointType::period_doubling;
-      for (const OrbitStart& start : starts_at(next)) {
+      const std::vector<OrbitStart> starts = starts_at(next);
+      for (const OrbitStart& start : starts) {
         if (interrupted_ || is_end_of(next, start)) continue;
         if (found_.size() >= orbits_.max_branches)
           return found_.back().branch.warn(
               more_branches(found_.size(), options_.parameter, next.point.parameters(parameter_)));
         follow(start, next.doublings + (doubles ? 1 : 0));
+        if (next.field && !found_.empty() && found_.back().branch.stop == Stop::no_start &&
+            has_equal(starts, start))
+          found_.back().branch.warn(
+              "several equal pairs of eigenvalues are on the axis at once, and the cycles that begin there "
+              "are "
+              "those of none of them alone; they were not found");
       }
     }
   }
@@ -87,6 +94,17 @@ class OrbitNetwork {
       keep_end(*traced.problem, traced.branch.points.back());
     }
     found_.push_back(std::move(traced));
+  }
+
+  /// Whether another cycle begins with the same period, as that of another pair at the same Hopf point.
+  static bool has_equal(const std::vector<OrbitStart>& starts, const OrbitStart& one) {
+    constexpr double equal = 1e-6;  // as well as the point is located, by far
+    const auto duration = [](const OrbitStart& start) {
+      return start.problem->duration(start.guess.unknowns, start.guess.parameters);
+    };
+    return std::count_if(starts.begin(), starts.end(), [&](const OrbitStart& other) {
+             return std::abs(duration(other) - duration(one)) < equal * duration(one);
+           }) > 1;
   }
 
   /// From a special point on an end of the range away from it.

@@ -244,3 +244,25 @@ TEST_CASE("Two equal cycles whose periods double at once are told", "[cycles]") 
   CHECK_FALSE(both.second);
   CHECK_THAT(both.first, WithinAbs(alone.first, 1e-9));
 }
+
+TEST_CASE("Cycles that begin with two equal pairs at once are said not to be found", "[cycles]") {
+  std::string equations;
+  for (const char* i : {"0", "1", "2"}) {
+    const std::string y = "y" + std::string(i);
+    equations += "x" + std::string(i) + " = \"" + y + "\"\n" + y + " = \"(mu - x" + i + "^2)*" + y + " - x" +
+                 i + " + 0.1*(y0 + y1 + y2 - 3*" + y + ")\"\n";
+  }
+  const auto all = traced_of("[model.parameters]\nmu = -1\n[model.equations]\n" + equations +
+                             "[cycles]\n[branch]\nparameter = \"mu\"\nfrom = -1\nto = 1\nswitching = true\n");
+  const auto summary = summarize(0, all[0]);
+  std::vector<bool> simple;
+  for (const auto& point : summary["special"]) {
+    if (point["type"] == "hopf") simple.push_back(point.contains("lyapunov"));
+  }
+  CHECK(simple == std::vector<bool>{true, false});
+  const auto warned = std::count_if(all.begin(), all.end(), [](const TracedBranch& one) {
+    return one.branch.warning.find("several equal pairs") != std::string::npos;
+  });
+  CHECK(warned >= 1);
+  for (const TracedBranch& one : all) CHECK((one.branch.points.size() > 1 || !one.branch.warning.empty()));
+}
