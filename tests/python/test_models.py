@@ -70,6 +70,34 @@ def test_a_map_doubles_its_period():
     assert cycles == pytest.approx([0, 4.2 / 6.4 - half, 1 - 1 / 3.2, 4.2 / 6.4 + half], abs=1e-9)
 
 
+HENON = {
+    "equations": {"x": "1 - a*x^2 + y", "y": "b*x"},
+    "parameters": {"a": 0.1, "b": 0.3},
+    "start": {"x": 0.8, "y": 0.2},
+    "kind": "map",
+}
+
+
+def test_a_map_has_the_curves_and_coefficients_of_its_case_file():
+    case = {"model": HENON, "branch": {"parameter": "a", "from": 0.1, "to": 1}}
+    theirs = arcslip.run(case).branches[0]
+    mine = arcslip.trace(arcslip.Model(**HENON), parameter="a", range=(0.1, 1))
+    assert mine.summary["special"] == theirs.summary["special"]
+    (doubling,) = special(mine, "period_doubling")
+    curve = mine.continue_in_two(doubling, "b", (-0.9, 0.9))
+    assert len(curve) > 10 and np.abs(curve["a"] - 3 * (1 - curve["b"]) ** 2 / 4).max() < 1e-9
+
+
+def test_a_map_has_curves_of_points_where_circles_are_born():
+    equations = {"x": "r*x*(1 - y) + c*x", "y": "x"}  # of determinant r x = r - 1 + c at its fixed point
+    model = arcslip.Model(equations, {"r": 1.5, "c": 0}, {"x": "1 - (1 - c)/r", "y": "1 - (1 - c)/r"}, kind="map")
+    branch = arcslip.trace(model, parameter="r", range=(1.5, 2.5))
+    (birth,) = special(branch, "neimark_sacker")
+    assert birth["r"] == pytest.approx(2, abs=1e-10)
+    curve = branch.continue_in_two(birth, "c", (-0.5, 0.5))
+    assert len(curve) > 10 and np.abs(curve["r"] - 2 + curve["c"]).max() < 1e-9
+
+
 @pytest.mark.parametrize(
     "change, message",
     [

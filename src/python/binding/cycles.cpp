@@ -14,7 +14,7 @@ namespace {
 std::shared_ptr<const continuation::Field> field_of(
     const std::shared_ptr<PythonProblem>& problem, const std::shared_ptr<const continuation::Field>& forced) {
   if (forced) return forced;
-  return std::make_shared<continuation::EquilibriumField>(problem);
+  return std::make_shared<continuation::EquilibriumField>(traced_problem(problem));
 }
 
 /// The cycles that leave the Hopf points of the branch next to a guess or, with a time to settle, that which
@@ -84,8 +84,8 @@ Handles trace_cycles(const std::shared_ptr<PythonProblem>& problem, const py::ob
     guess.parameters.conservativeResize(guess.parameters.size() - 1);
   }
   const auto branches = in_engine(options, progress, [&](const auto& observer) {
-    return traced_cycles(field_of(problem, forced), *problem, guess, settle, follow, how == "both", options,
-                         cycles, observer);
+    return traced_cycles(field_of(problem, forced), *traced_problem(problem), guess, settle, follow,
+                         how == "both", options, cycles, observer);
   });
   return handles_of(problem, options, cycles, branches);
 }

@@ -219,7 +219,6 @@ void PythonProblem::require_numbers(const Vector& p, const Evaluation& out, bool
 
 bool PythonProblem::evaluate(const Vector& u, const Vector& p, const Regime& regime,
                              const Evaluation& out) const {
-  if (traits_.formulas) return traits_.formulas->evaluate(u, p, regime, out);
   bool has_value = true;
   const bool done = guarded([&] {
     if (!functions_.borders.is_none()) {
@@ -234,7 +233,6 @@ bool PythonProblem::evaluate(const Vector& u, const Vector& p, const Regime& reg
 
 bool PythonProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
                                 ComplexVector& values) const {
-  if (traits_.formulas) return traits_.formulas->eigenvalues(u, p, regime, values);
   if (functions_.eigenvalues.is_none()) return Problem::eigenvalues(u, p, regime, values);
   const bool done = guarded([&] {
     values = take_all_complex(call(functions_.eigenvalues, u, p, regime), "eigenvalues");
@@ -244,23 +242,6 @@ bool PythonProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& 
   });
   if (!done) values = last_eigenvalues_;  // the branch ends; until then there are as many as before
   return done || values.size() > 0;
-}
-
-bool PythonProblem::second(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,
-                           const Vector& du, const Vector& dp, Vector& out) const {
-  return traits_.formulas && traits_.formulas->second(u, p, regime, w, du, dp, out);
-}
-
-continuation::PointType PythonProblem::pair_crossing() const {
-  return traits_.formulas ? traits_.formulas->pair_crossing() : Problem::pair_crossing();
-}
-
-std::vector<continuation::PointType> PythonProblem::test_types() const {
-  return traits_.formulas ? traits_.formulas->test_types() : Problem::test_types();
-}
-
-void PythonProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
-  traits_.formulas ? traits_.formulas->test(u, p, regime, values) : Problem::test(u, p, regime, values);
 }
 
 void PythonProblem::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
@@ -309,7 +290,6 @@ std::vector<Observable> PythonProblem::observables() const {
 }
 
 void PythonProblem::observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
-  if (traits_.formulas) return traits_.formulas->observe(u, p, regime, values);
   const Index named = std::ssize(traits_.unknowns);
   values = Vector::Constant(named + std::ssize(traits_.observables), std::nan(""));
   values.head(named) = u.head(named);
@@ -319,10 +299,6 @@ void PythonProblem::observe(const Vector& u, const Vector& p, const Regime& regi
 
 double PythonProblem::observe(const Vector& u, const Vector& p, const Regime& regime, Index which,
                               Gradient& gradient) const {
-  if (traits_.formulas) {
-    gradient = {Vector(u.size()), Vector(p.size())};
-    return traits_.formulas->observe(u, p, regime, which, gradient);
-  }
   gradient = {Vector::Zero(u.size()), Vector::Zero(p.size())};
   const Index own = which - std::ssize(traits_.unknowns);
   if (own < 0) {

@@ -1,9 +1,8 @@
 #pragma once
 
-// A problem whose functions are written in Python, or that stands for one of formulas. The functions are
-// called with copies of u and p, with the interpreter's lock, from whichever thread the engine runs in. What
-// they raise never passes through the engine: the problem has no value from then on, and it is raised again
-// where the work was asked for.
+// A problem whose functions are written in Python. They are called with copies of u and p, with the
+// interpreter's lock, from whichever thread the engine runs in. What they raise never passes through the
+// engine: the problem has no value from then on, and it is raised again where the work was asked for.
 
 #include <pybind11/pybind11.h>
 
@@ -51,7 +50,7 @@ struct PythonTraits {
   Step by_parameters = Step::none;
   Step of_observables = Step::central;
   Step of_borders = Step::central;
-  std::shared_ptr<const continuation::Problem> formulas = {};  ///< what the functions evaluate, if they do
+  std::shared_ptr<const continuation::Problem> formulas = {};  ///< what the functions stand for, if they do
 };
 
 class PythonProblem : public continuation::Problem {
@@ -93,16 +92,10 @@ class PythonProblem : public continuation::Problem {
   std::vector<std::string> parameter_names() const override { return traits_.parameters; }
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                               const continuation::Evaluation& out) const override;
-  [[nodiscard]] bool second(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                            const Vector& w, const Vector& du, const Vector& dp, Vector& out) const override;
   bool sparse() const override { return traits_.sparse; }
   bool is_equilibrium() const override { return traits_.is_equilibrium; }
   [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
                                  ComplexVector& values) const override;
-  continuation::PointType pair_crossing() const override;
-  std::vector<continuation::PointType> test_types() const override;
-  void test(const Vector& u, const Vector& p, const continuation::Regime& regime,
-            Vector& values) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
   Index switch_count() const override { return traits_.switches; }
   int border_count(const continuation::Regime& regime) const override;
@@ -150,5 +143,12 @@ class PythonProblem : public continuation::Problem {
   mutable Vector last_u_;
   mutable Vector last_p_;
 };
+
+/// What the engine traces: where the functions stand for formulas the problem of these itself, which has more
+/// than functions can say.
+inline std::shared_ptr<const continuation::Problem> traced_problem(
+    const std::shared_ptr<const PythonProblem>& problem) {
+  return problem->traits().formulas != nullptr ? problem->traits().formulas : problem;
+}
 
 }  // namespace arcslip::python

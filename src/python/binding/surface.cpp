@@ -88,7 +88,7 @@ py::dict cover(const std::shared_ptr<PythonProblem>& problem, const std::vector<
   continuation::TraceOptions trace;
   return told(in_engine(trace, py::none(), [&](const auto&) {
     options.go_on = trace.go_on;
-    return continuation::cover(*problem, guesses, options);
+    return continuation::cover(*traced_problem(problem), guesses, options);
   }));
 }
 

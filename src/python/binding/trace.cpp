@@ -42,7 +42,7 @@ TracedBranch beside(const BranchHandle& handle, const TraceOptions& options, Bra
 }
 
 /// What a given derivative is that is not that of its function.
-void require_exact(const PythonProblem& problem, const Guess& guess, const TraceOptions& options) {
+void require_exact(const continuation::Problem& problem, const Guess& guess, const TraceOptions& options) {
   Interruption interruption;
   const PythonProblem::Listener listener(interruption);
   const Index parameter = continuation::index_of(problem.parameter_names(), options.parameter);
@@ -51,9 +51,9 @@ void require_exact(const PythonProblem& problem, const Guess& guess, const Trace
   if (wrong) throw py::value_error(*wrong);
 }
 
-std::vector<Branch> traced_by(const std::string& how, const PythonProblem& problem, const Guess& guess,
-                              const std::pair<Vector, Vector>& box, const TraceOptions& options,
-                              const continuation::Observer& observer) {
+std::vector<Branch> traced_by(const std::string& how, const continuation::Problem& problem,
+                              const Guess& guess, const std::pair<Vector, Vector>& box,
+                              const TraceOptions& options, const continuation::Observer& observer) {
   if (how == "connected") return continuation::trace_connected(problem, guess, options, observer);
   if (how == "connected both")
     return continuation::trace_connected_through(problem, {guess}, options, observer);
@@ -74,17 +74,18 @@ Handles trace(const std::shared_ptr<PythonProblem>& problem, const py::handle& u
   TraceOptions options;
   set_options(given, problem, options);
   const Guess guess = guess_of(*problem, u, p, regime);
-  if (check) require_exact(*problem, guess, options);
+  const std::shared_ptr<const continuation::Problem> traced = traced_problem(problem);
+  if (check) require_exact(*traced, guess, options);
   const auto begun = std::chrono::steady_clock::now();
   const std::vector<Branch> branches = in_engine(options, progress, [&](const auto& observer) {
-    return traced_by(how, *problem, guess, box, options, observer);
+    return traced_by(how, *traced, guess, box, options, observer);
   });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begun;
   Handles handles;
   for (const Branch& branch : branches) {
-    TracedBranch traced = traced_of(problem, options, branch);
-    traced.seconds = seconds.count() / static_cast<double>(branches.size());
-    handles.push_back(std::make_shared<BranchHandle>(std::move(traced), problem));
+    TracedBranch one = traced_of(problem, options, branch);
+    one.seconds = seconds.count() / static_cast<double>(branches.size());
+    handles.push_back(std::make_shared<BranchHandle>(std::move(one), problem));
   }
   return handles;
 }
@@ -108,7 +109,7 @@ py::tuple solve_all(const std::shared_ptr<PythonProblem>& problem, const py::obj
   TraceOptions options;
   const problems::AllSolutions found = in_engine(options, py::none(), [&](const auto&) {
     seeking.go_on = options.go_on;
-    return problems::find_all_solutions(*problem, guesses, seeking, map);
+    return problems::find_all_solutions(*traced_problem(problem), guesses, seeking, map);
   });
   py::list all;
   for (const Guess& solution : found.solutions) all.append(give(solution.unknowns));
@@ -312,7 +313,7 @@ std::shared_ptr<BranchHandle> trace_on(const std::shared_ptr<PythonProblem>& pro
     }
   }();
   Branch branch = in_engine(options, progress, [&](const auto& observer) {
-    return continuation::resume(*problem, checkpoint, options, observer);
+    return continuation::resume(*traced_problem(problem), checkpoint, options, observer);
   });
   return std::make_shared<BranchHandle>(traced_of(problem, options, std::move(branch)), problem);
 }

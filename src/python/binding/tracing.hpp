@@ -49,7 +49,7 @@ inline TracedBranch traced_of(const std::shared_ptr<PythonProblem>& problem,
   request->options.go_on = {};
   TracedBranch traced;
   traced.request = request;
-  traced.base.problem = problem;
+  traced.base.problem = traced_problem(problem);
   traced.branch = std::move(branch);
   return traced;
 }
