@@ -46,11 +46,13 @@ class OrbitNetwork {
 
   void begin(const OrbitStart& start) { follow(start, 0); }
 
-  /// Without time left the next branch is begun, and says so.
-  void follow_waiting() {
+  /// Those from Hopf points, which come first, and with `further` what the branches found meet. Without time
+  /// left the next branch is begun, and says so.
+  void follow_waiting(bool further = true) {
     while (!waiting_.empty() && !interrupted_) {
       const Waiting next = std::move(waiting_.front());
       waiting_.pop_front();
+      if (!further && next.problem) return;
       const bool doubles = next.point.type == PointType::period_doubling;
       const std::vector<OrbitStart> starts = starts_at(next);
       for (const OrbitStart& start : starts) {
@@ -209,14 +211,14 @@ std::vector<CycleBranch> trace_connected_cycles(const CycleStart& start, const T
 std::vector<CycleBranch> trace_cycles_leaving(const std::shared_ptr<const Field>& field,
                                               const std::vector<Branch>& equilibria,
                                               const TraceOptions& options, const CycleOptions& cycles,
-                                              const Observer& observer) {
+                                              const Observer& observer, bool follow) {
   OrbitNetwork network(*field, of_cycles(*field, options), cycles, observer);
   for (const Branch& branch : equilibria) {
     for (const BranchPoint& point : branch.points) {
       if (point.type == PointType::hopf) network.expect(field, point);
     }
   }
-  network.follow_waiting();
+  network.follow_waiting(follow);
   return cycle_branches(network.take());
 }
 

@@ -40,6 +40,15 @@ def test_a_model_settles_and_its_period_doubles():
     assert set(orbit) == {"t", "x", "y", "z"} and orbit["x"].max() == pytest.approx(doubled[0]["x_max"], rel=1e-3)
 
 
+def test_cycles_that_leave_equilibria_are_alone_unless_more_are_asked_for():
+    equations = {"x": "al*(y - a*x^3 - c*x)", "y": "x - y + z", "z": "-be*y"}
+    chua = arcslip.Model(equations, {"al": 4, "be": 14, "a": 0.0625, "c": -0.2}, {"x": 1.7, "z": -1.7})
+    alone = arcslip.trace_cycles(chua, parameter="al", range=(4, 10), follow=False)
+    more = arcslip.trace_cycles(chua, parameter="al", range=(4, 10), doublings=1)
+    assert (len(alone), len(more)) == (1, 2)
+    assert "period_doubling" in alone[0]["type"] and np.array_equal(alone[0]["T"], more[0]["T"])
+
+
 def test_what_is_no_cycle_is_refused():
     rest = arcslip.Model(equations={"x": "y", "y": "-x - d*y"}, parameters={"d": 1}, start={"x": 1})
     with pytest.raises(ValueError, match="come to rest"):

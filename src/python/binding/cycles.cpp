@@ -31,7 +31,7 @@ std::vector<continuation::CycleBranch> traced_cycles(const std::shared_ptr<const
                                                 ? continuation::trace_both(problem, guess, unwatched(options))
                                                 : continuation::trace(problem, guess, unwatched(options));
     if (equilibria.stop == continuation::Stop::no_start) throw std::invalid_argument(equilibria.explanation);
-    return trace_cycles_leaving(field, {equilibria}, options, cycles, observer);
+    return trace_cycles_leaving(field, {equilibria}, options, cycles, observer, follow);
   }
   continuation::CycleStart start =
       settled_cycle(field, guess.unknowns, guess.parameters, settle, cycles, options.go_on);

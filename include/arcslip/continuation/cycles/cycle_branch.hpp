@@ -53,11 +53,11 @@ std::vector<CycleBranch> trace_connected_cycles(const CycleStart& start, const T
                                                 const CycleOptions& cycles = {},
                                                 const Observer& observer = {});
 
-/// The cycles that leave the Hopf points of branches of equilibria, and all that can be reached from these
-/// through branch points and period doublings, each branch once.
+/// The cycles that leave the Hopf points of branches of equilibria and, with `follow`, all that can be
+/// reached from these through branch points and period doublings, each branch once.
 std::vector<CycleBranch> trace_cycles_leaving(const std::shared_ptr<const Field>& field,
                                               const std::vector<Branch>& equilibria,
                                               const TraceOptions& options, const CycleOptions& cycles = {},
-                                              const Observer& observer = {});
+                                              const Observer& observer = {}, bool follow = true);
 
 }  // namespace arcslip::continuation
