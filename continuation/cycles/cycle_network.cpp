@@ -65,8 +65,7 @@ class OrbitNetwork {
             has_equal(starts, start))
           found_.back().branch.warn(
               "several equal pairs of eigenvalues are on the axis at once, and the cycles that begin there "
-              "are "
-              "those of none of them alone; they were not found");
+              "are those of none of them alone; they were not found");
       }
     }
   }

@@ -64,8 +64,7 @@ void StepSearch::note(Event event) {
 
 void StepSearch::note(const EventKind& kind, PointType type, Index index, const Zero& zero) {
   if (zero.state == Zero::State::failed) fail();
-  if (zero.state == Zero::State::found && solved())
-    note({&kind, type, index, zero.s, true, 0, zero.touches});
+  if (zero.state == Zero::State::found && solved()) note({&kind, type, index, zero.s, true, 0, zero.touches});
 }
 
 void StepSearch::note_jump(const EventKind& kind, PointType type, Index index, const Zero& zero) {
