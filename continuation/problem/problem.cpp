@@ -3,15 +3,40 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
+#include "arcslip/continuation/cycles/torus_problem.hpp"
 #include "arcslip/continuation/linear/eigenvalues.hpp"
 #include "arcslip/continuation/linear/nearest_eigenvalues.hpp"
 #include "arcslip/continuation/points/extended_problem.hpp"
 #include "arcslip/continuation/problem/directional_check.hpp"
 #include "arcslip/continuation/problem/evaluation.hpp"
+#include "arcslip/continuation/problem/guess.hpp"
 
 namespace arcslip::continuation {
+namespace {
+
+bool is_dense_map(const Problem& problem) { return problem.is_map() && !problem.sparse(); }
+
+/// dF/du of a problem that is not sparse; false where it has no value.
+bool jacobian_at(const Problem& problem, const Vector& u, const Vector& p, const Regime& regime,
+                 Matrix& jacobian) {
+  jacobian.resize(problem.size(), problem.size());
+  Evaluation out;
+  out.jacobian = &jacobian;
+  return continuation::evaluate(problem, u, p, regime, out) && jacobian.allFinite();
+}
+
+/// ln mu, or ln -mu where mu < 0.
+Complex log_of_multiplier(const Complex& multiplier) {
+  const bool flips = multiplier.imag() == 0 && multiplier.real() < 0;
+  const double size = std::max(std::abs(multiplier), std::numeric_limits<double>::min());
+  return {std::log(size), flips ? 0 : std::arg(multiplier)};
+}
+
+}  // namespace
 
 void Problem::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
   unknowns = u.cwiseAbs().cwiseMax(1);
@@ -25,29 +50,43 @@ bool Problem::second(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*r
 
 bool Problem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
                           ComplexVector& values) const {
-  if (!is_equilibrium()) return false;
-  Evaluation out;
+  const bool returns = is_dense_map(*this);
+  if (!is_equilibrium() && !returns) return false;
   if (sparse()) {
+    Evaluation out;
     SparseMatrix entries(size(), size());
     out.sparse_jacobian = &entries;
     if (!continuation::evaluate(*this, u, p, regime, out)) return false;
     values = nearest_eigenvalues(entries, eigenvalues_looked_at);
     return values.size() > 0 && values.allFinite();
   }
-  Matrix jacobian(size(), size());
-  out.jacobian = &jacobian;
-  if (!continuation::evaluate(*this, u, p, regime, out) || !jacobian.allFinite()) return false;
+  Matrix jacobian;
+  if (!jacobian_at(*this, u, p, regime, jacobian)) return false;
+  if (returns) jacobian.diagonal().array() += 1;
   values = continuation::eigenvalues(jacobian);
+  if (returns) std::transform(values.begin(), values.end(), values.begin(), log_of_multiplier);
   return values.allFinite();
 }
 
-void Problem::test(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*regime*/, Vector& values) const {
-  values.resize(0);
+std::vector<PointType> Problem::test_types() const {
+  if (!is_dense_map(*this)) return {};
+  return {PointType::period_doubling};
 }
 
-std::unique_ptr<ExtendedProblem> Problem::special(PointType /*type*/, Index /*active*/, const Guess& /*at*/,
-                                                  Vector& /*extras*/) const {
-  return nullptr;
+void Problem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
+  values.resize(is_dense_map(*this) ? 1 : 0);
+  if (values.size() == 0) return;
+  Matrix jacobian;
+  const bool exists = jacobian_at(*this, u, p, regime, jacobian);
+  jacobian.diagonal().array() += 2;
+  values(0) = exists ? jacobian.determinant() : std::nan("");
+}
+
+std::unique_ptr<ExtendedProblem> Problem::special(PointType type, Index active, const Guess& at,
+                                                  Vector& extras) const {
+  ComplexVector logs;
+  if (!is_dense_map(*this) || !eigenvalues(at.unknowns, at.parameters, at.regime, logs)) return nullptr;
+  return special_of_multipliers(*this, type, active, logs, extras);
 }
 
 std::string Problem::describe(const Regime& regime) const {

@@ -2,11 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "arcslip/continuation/cycles/torus_problem.hpp"
-#include "arcslip/continuation/linear/eigenvalues.hpp"
-#include "arcslip/continuation/problem/guess.hpp"
 #include "arcslip/interval/enclosed_tape.hpp"
 #include "field_values.hpp"
 #include "numbers.hpp"
@@ -16,7 +12,6 @@ namespace arcslip::problems {
 namespace {
 
 using continuation::Evaluation;
-using continuation::PointType;
 using continuation::Regime;
 
 Eigen::Map<const Vector> vector_of(const Numbers& numbers) { return {numbers.data(), std::ssize(numbers)}; }
@@ -107,57 +102,6 @@ bool FormulaProblem::series(const Matrix& u, const Vector& p, const Regime& /*re
   if (!series_by(equations_, nullptr, u, p, out)) return false;
   if (kind_ == FormulaKind::map) out -= u;
   return true;
-}
-
-/// Those of the iterate are the eigenvalues of its Jacobian.
-bool FormulaProblem::multipliers(const Vector& u, const Vector& p, Matrix& jacobian) const {
-  jacobian.resize(size(), size());
-  Evaluation out;
-  out.jacobian = &jacobian;
-  if (!evaluate(u, p, {}, out)) return false;
-  jacobian.diagonal().array() += 1;
-  return true;
-}
-
-bool FormulaProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
-                                 ComplexVector& values) const {
-  if (kind_ != FormulaKind::map) return Problem::eigenvalues(u, p, regime, values);
-  Matrix jacobian;
-  if (!multipliers(u, p, jacobian)) return false;
-  values = continuation::eigenvalues(jacobian);
-  for (Complex& value : values) {
-    const bool flips = value.imag() == 0 && value.real() < 0;
-    const double size = std::max(std::abs(value), std::numeric_limits<double>::min());
-    value = {std::log(size), flips ? 0 : std::arg(value)};
-  }
-  return values.allFinite();
-}
-
-PointType FormulaProblem::pair_crossing() const {
-  return kind_ == FormulaKind::map ? PointType::neimark_sacker : PointType::hopf;
-}
-
-std::vector<PointType> FormulaProblem::test_types() const {
-  if (kind_ == FormulaKind::map) return {PointType::period_doubling};
-  return {};
-}
-
-void FormulaProblem::test(const Vector& u, const Vector& p, const Regime& /*regime*/, Vector& values) const {
-  values.resize(std::ssize(test_types()));
-  Matrix jacobian;
-  if (values.size() == 0) return;
-  values(0) = std::nan("");
-  if (!multipliers(u, p, jacobian)) return;
-  jacobian.diagonal().array() += 1;
-  values(0) = jacobian.determinant();
-}
-
-std::unique_ptr<continuation::ExtendedProblem> FormulaProblem::special(PointType type, Index active,
-                                                                       const continuation::Guess& at,
-                                                                       Vector& extras) const {
-  ComplexVector logs;
-  if (!is_map() || !eigenvalues(at.unknowns, at.parameters, at.regime, logs)) return nullptr;
-  return continuation::special_of_multipliers(*this, type, active, logs, extras);
 }
 
 std::vector<continuation::Observable> FormulaProblem::observables() const {

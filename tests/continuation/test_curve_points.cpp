@@ -9,6 +9,7 @@
 #include "arcslip/continuation/points/hopf_form.hpp"
 #include "arcslip/continuation/points/hopf_problem.hpp"
 #include "arcslip/problems/library/ab.hpp"
+#include "branches.hpp"
 #include "catch.hpp"
 #include "scalar_problem.hpp"
 #include "sparse_problems.hpp"
@@ -124,6 +125,31 @@ Branch cusp_curve(const Problem& problem, std::vector<std::string> extrema_of = 
   TraceOptions options = over("lambda", -1, 3);
   options.extrema_of = std::move(extrema_of);
   return trace_curve(folds, {vector_of({-1}), vector_of({-2, 3}), 0, {}}, options);
+}
+
+/// x -> y, y -> c - b x + y^2 + e x y, of which the fixed points x = y have a Jacobian of trace (2 + e) y and
+/// determinant b - e y.
+class DelayedMap : public Problem {
+ public:
+  static constexpr double e = 0.3;
+  Index size() const override { return 2; }
+  std::vector<std::string> parameter_names() const override { return {"c", "b"}; }
+  bool is_map() const override { return true; }
+
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
+    const double x = u(0), y = u(1), c = p(0), b = p(1);
+    if (out.residual != nullptr) *out.residual << y - x, c - b * x + y * y + e * x * y - y;
+    if (out.jacobian != nullptr) *out.jacobian << -1, 1, -b + e * y, 2 * y + e * x - 1;
+    if (out.parameter_jacobian != nullptr) *out.parameter_jacobian << 0, 0, 1, -x;
+    return true;
+  }
+};
+
+BranchPoint only(const Branch& branch, PointType type) {
+  const std::vector<BranchPoint> found = of_type(branch, type);
+  REQUIRE(found.size() == 1);
+  return found.front();
 }
 
 }  // namespace
@@ -254,4 +280,44 @@ TEST_CASE("The evaluations of a curve do not grow with its unknowns") {
     if (fewest == 0) fewest = each;
     CHECK(each < 2 * fewest);
   }
+}
+
+TEST_CASE("An own map has its special points, stability and curves by being one") {
+  const DelayedMap map;
+  const double b = 0.5, e = DelayedMap::e;
+  const Guess guess{Vector::Constant(2, -0.9), Eigen::Vector2d(-2.5, b)};
+  const Branch branch = trace(map, guess, over("c", -2.5, 2));
+  const BranchPoint doubling = only(branch, PointType::period_doubling);
+  const double square = (1 + b) * (1 + b);
+  CHECK_THAT(doubling.parameters(0), WithinAbs(-square / 2 - (1 + e) * square / 4, 1e-9));
+  const BranchPoint fold = only(branch, PointType::fold);
+  CHECK_THAT(fold.parameters(0), WithinAbs(square / (4 * (1 + e)), 1e-9));
+  CHECK(branch.points.front().unstable == 1);
+  CHECK(branch.points.back().unstable == 1);
+  for (const BranchPoint& point : branch.points) {
+    const bool is_between = doubling.arclength < point.arclength && point.arclength < fold.arclength;
+    if (is_between) CHECK(point.unstable == 0);
+  }
+
+  const CurveStart start = curve_through(map, "c", doubling);
+  for (const BranchPoint& point : trace_curve(*start.problem, start.point, over("b", -0.5, 1.5)).points) {
+    const BasePoint at = start.problem->split(point.unknowns, point.parameters, point.regime);
+    CHECK_THAT(2 * at.unknowns(0) + 1 + at.parameters(1), WithinAbs(0, 1e-9));
+  }
+}
+
+TEST_CASE("An own map has curves of Neimark-Sacker points with their resonances by being one") {
+  const DelayedMap map;
+  const Guess guess{Vector::Constant(2, -0.3), Eigen::Vector2d(-0.5, 0.3)};
+  const Branch branch = trace(map, guess, over("b", 0.3, 1.5));
+  const CurveStart start = curve_through(map, "b", only(branch, PointType::neimark_sacker));
+  const Branch curve = trace_curve(*start.problem, start.point, over("c", -1.9, 0.7));
+  CHECK(curve.complete());
+  for (const BranchPoint& point : curve.points) {
+    const BasePoint at = start.problem->split(point.unknowns, point.parameters, point.regime);
+    CHECK_THAT(at.parameters(1), WithinAbs(1 + DelayedMap::e * at.unknowns(0), 1e-9));
+  }
+  const double y = -1 / (2 + DelayedMap::e);
+  CHECK_THAT(only(curve, PointType::resonance_1_3).parameters(0), WithinAbs(2 * y - y * y, 1e-8));
+  CHECK_THAT(only(curve, PointType::resonance_1_4).parameters(0), WithinAbs(0, 1e-8));
 }

@@ -122,20 +122,22 @@ class Problem {
   /// decades where a parameter multiplies many equations at once.
   virtual bool has_many_alike_rows() const { return sparse() && is_equilibrium(); }
 
-  /// Whether F(u, p) + u is a map of which the solutions are fixed points.
+  /// Whether F(u, p) + u is a map of which the solutions are fixed points. One that is not sparse has by this
+  /// alone its stability, its special points and their curves.
   virtual bool is_map() const { return false; }
 
   /// Whether multipliers of one round tell stability: of maps, and of cycles on a mesh.
   virtual bool has_multipliers() const { return is_map(); }
 
   /// The eigenvalues that tell stability at (u, p), in any order; false where there are none. The default
-  /// takes those of an equilibrium's Jacobian, of a sparse one beyond 200 unknowns the 20 nearest to 0; a
-  /// periodic solution has the rates of hill.hpp.
+  /// takes those of an equilibrium's Jacobian, of a sparse one beyond 200 unknowns the 20 nearest to 0, and
+  /// of a map ln mu or, where mu < 0 is real, ln -mu, for each multiplier mu: zero at mu = 1 and at mu = -1.
+  /// A periodic solution has the rates of hill.hpp.
   [[nodiscard]] virtual bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
                                          ComplexVector& values) const;
 
   /// What a pair of these that crosses the imaginary axis is called.
-  virtual PointType pair_crossing() const { return PointType::hopf; }
+  virtual PointType pair_crossing() const { return is_map() ? PointType::neimark_sacker : PointType::hopf; }
 
   /// What a real one that crosses zero is called; regular where it has no name of its own, as at folds and
   /// branch points, which are found without eigenvalues.
@@ -146,8 +148,9 @@ class Problem {
     return PointType::fold;
   }
 
-  /// Functions along a branch whose zeros are special points: the types of these points.
-  virtual std::vector<PointType> test_types() const { return {}; }
+  /// Functions along a branch whose zeros are special points: the types of these points. The default has, of
+  /// maps, period doublings, where det(2 + dF/du) vanishes.
+  virtual std::vector<PointType> test_types() const;
   /// Fills the values of these functions, one for each type.
   virtual void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const;
 
@@ -210,7 +213,8 @@ class Problem {
                                                                     const std::vector<Index>& tracked) const;
 
   /// The conditions on special points of a type that this problem has of its own, with `active` as an
-  /// unknown, for a point like `at`: sets the extras that they begin with. Null where there are none.
+  /// unknown, for a point like `at`: sets the extras that they begin with. Null where there are none. The
+  /// default has, of maps, those on period doublings and Neimark-Sacker points.
   virtual std::unique_ptr<ExtendedProblem> special(PointType type, Index active, const Guess& at,
                                                    Vector& extras) const;
 

@@ -120,22 +120,6 @@ class FormulaProblem : public continuation::Problem {
   }
   bool is_equilibrium() const override { return kind_ == FormulaKind::flow; }
   bool is_map() const override { return kind_ == FormulaKind::map; }
-
-  /// Of a map ln mu or, where mu < 0 is real, ln -mu, for each multiplier mu: zero at mu = 1 and at mu = -1.
-  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                                 ComplexVector& values) const override;
-  continuation::PointType pair_crossing() const override;
-
-  /// Of a map period doublings, where det(1 + df/du) vanishes.
-  std::vector<continuation::PointType> test_types() const override;
-  void test(const Vector& u, const Vector& p, const continuation::Regime& regime,
-            Vector& values) const override;
-
-  /// Of a map those of period doublings and Neimark-Sacker points.
-  std::unique_ptr<continuation::ExtendedProblem> special(continuation::PointType type, Index active,
-                                                         const continuation::Guess& at,
-                                                         Vector& extras) const override;
-
   std::vector<continuation::Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
                Vector& values) const override;
@@ -146,8 +130,6 @@ class FormulaProblem : public continuation::Problem {
   EnclosedMap enclosed(const Vector& p) const;
 
  private:
-  bool multipliers(const Vector& u, const Vector& p, Matrix& jacobian) const;
-
   FormulaKind kind_;
   std::vector<std::string> unknowns_;
   std::vector<std::string> parameters_;
