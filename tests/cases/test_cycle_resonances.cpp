@@ -322,3 +322,30 @@ TEST_CASE("A curve of cycles without one to begin on says why there is none", "[
   CHECK(why("enzyme_cycle_folds", {"model.parameters.s0=1", "branch.from=0.5", "branch.to=2"}) ==
         "no cycle_fold was found for rho = 0 to 6 at s0 = 1: no cycles were found");
 }
+
+TEST_CASE("A curve of tori goes on past a cube root of 1, where its coefficient is not known", "[cycles]") {
+  const auto all = traced_of(R"case(
+[model]
+kind = "forced"
+period = "2*pi/W"
+[model.parameters]
+W = 1
+F = 1
+mu = 0.3
+[model.equations]
+x = "y"
+y = "mu*(1 - x^2)*y - x + F*cos(W*t)"
+[model.start]
+x = 1
+[branch]
+curve = "neimark_sacker"
+parameters = ["W", "F"]
+window = [1.2, 1.6]
+from = 1
+to = 2
+)case");
+  REQUIRE(all.size() == 1);
+  CHECK(at(all, PointType::resonance_1_3, "F").size() == 1);
+  CHECK(all[0].branch.complete());
+  CHECK(all[0].branch.work.rejected_steps <= 3);  // not ever shorter ones beside this point
+}

@@ -17,6 +17,7 @@
 // from series of F along curves. T changes with |w|^2.
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "arcslip/continuation/cycles/cycle_problem.hpp"
@@ -33,10 +34,13 @@ struct MultiplierForm {
   double rounding = 0;     ///< of the coefficient: terms cancel where mu^3 is nearly 1
 
   /// The coefficient over its terms; 0 where it is no more than its error may be, as all along a curve of
-  /// what is linear.
+  /// what is linear, and nan where that is as much as the terms, as at mu^3 = 1: a function that there were 0
+  /// would begin with a jump.
   double relative() const {
     constexpr double surely = 10;
-    return std::abs(coefficient) > surely * (error + rounding) ? coefficient / terms : 0;
+    const double unknown = surely * (error + rounding);
+    if (!(unknown < terms)) return std::numeric_limits<double>::quiet_NaN();
+    return std::abs(coefficient) > unknown ? coefficient / terms : 0;
   }
 };
 
