@@ -52,10 +52,11 @@ bool Expansion::interpolate(const Matrix& u, const Vector& p, const Regime& regi
   const double length = u.col(1).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
   if (!(length > 0)) return false;
   const double h = reach_ / length;
+  constexpr bool by_parameters = false;
   Matrix rates(u.rows(), points);
   Vector rate(u.rows());
   for (Index i = 0; i < points; ++i) {
-    if (!at_.evaluate(value_of(u, h * x(i), false), p, regime)) return false;
+    if (!at_.evaluate(value_of(u, h * x(i), false), p, regime, by_parameters)) return false;
     at_.multiply(value_of(u, h * x(i), true), rate);
     rates.col(i) = rate;
   }

@@ -21,9 +21,10 @@ Linearization::Linearization(const Problem& problem, bool as_matrix)
   }
 }
 
-bool Linearization::evaluate(const Vector& u, const Vector& p, const Regime& regime) {
+bool Linearization::evaluate(const Vector& u, const Vector& p, const Regime& regime, bool by_parameters) {
   ++evaluations_;
-  Evaluation out{.residual = &residual_, .parameter_jacobian = &parameter_jacobian_};
+  Evaluation out{.residual = &residual_};
+  if (by_parameters) out.parameter_jacobian = &parameter_jacobian_;
   if (condensed_ != nullptr) {
     out.condensed_jacobian = condensed_.get();
   } else if (sparse_) {

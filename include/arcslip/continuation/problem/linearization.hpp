@@ -14,8 +14,10 @@ class Linearization {
   /// Nothing is evaluated yet. `as_matrix` asks those that condense their Jacobian for a matrix as well.
   explicit Linearization(const Problem& problem, bool as_matrix = false);
 
-  /// Evaluates F with all its derivatives, as `continuation::evaluate` does. `u` n, `p` number of parameters.
-  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const Regime& regime);
+  /// Evaluates F with all its derivatives, as `continuation::evaluate` does, or without those by parameters.
+  /// `u` n, `p` number of parameters.
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                              bool by_parameters = true);
 
   long evaluations() const { return evaluations_; }  ///< so far
 
