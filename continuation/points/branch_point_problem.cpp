@@ -137,27 +137,30 @@ bool DoublePoint::solve_borders() {
 }
 
 bool DoublePoint::settle() {
-  constexpr double longest = 1e6;  // in units of the matrix
   if (!linear_.evaluate(at_.unknowns, at_.parameters, at_.regime)) return false;
   Vector unknowns(n_);
   Vector all(at_.parameters.size());
   problem_.scale(at_.unknowns, at_.parameters, unknowns, all);
   scale_ << unknowns, all(active_);
-  const double size = column_size(linear_, unknowns);
+  size_ = column_size(linear_, unknowns);
   left_.resize(n_, 2);
   right_.resize(n_ + 1, 3);
   for (int j = 0; j < 2; ++j) left_.col(j) = spread(n_, 1 + 2 * j);
   for (int j = 0; j < 3; ++j) right_.col(j) = spread(n_ + 1, 2 + 2 * j);
   for (int i = 0; i < 4; ++i) {  // inverse iteration
-    columns_ = size * orthonormal(left_);
+    columns_ = size_ * orthonormal(left_);
     border_ = orthonormal(right_);
     if (!solve_borders()) return false;
   }
-  // A solution with a right-hand side without preference is as long as the inverse is large.
+  return true;
+}
+
+/// A solution with a right-hand side without preference is as long as the inverse is large.
+double DoublePoint::away_from_more() const {
   Vector side = spread(n_ + 3, 1);
-  side.tail(3) /= size;
+  side.head(n_) *= size_;
   solver_->solve(side);
-  return size * side.norm() < longest;
+  return 1 / (side.norm() * largest_slope());
 }
 
 bool DoublePoint::rows(const Vector& d, double h, Matrix& out) {

@@ -310,8 +310,10 @@ std::optional<MultiplePoint> multiple_point(const Problem& problem, Index active
                                             const Tolerances& tolerances) {
   if (problem.size() < 2) return std::nullopt;
   DoublePoint point(problem, active, branch);
-  if (!point.settle()) return MultiplePoint{branch, false, {}};
-  if (point.largest_condition() > tolerances.zero_eigenvalue) return std::nullopt;
+  const MultiplePoint untold{branch, false, {}};
+  if (!point.settle()) return untold;
+  if (!point.set_forms() || !(point.away() < tolerances.same_point)) return std::nullopt;
+  if (!(point.away_from_more() > tolerances.same_point)) return untold;
   locate(point, tolerances.same_point);
   MultiplePoint found{point.at(), true, {}};
   if (!point.set_forms()) return found;

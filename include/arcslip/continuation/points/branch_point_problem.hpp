@@ -2,6 +2,7 @@
 
 // Branch points as an extended problem, and those that are no simple ones.
 
+#include <algorithm>
 #include <array>
 
 #include "arcslip/continuation/points/extended_problem.hpp"
@@ -67,10 +68,13 @@ class DoublePoint {
 
   const Guess& at() const { return at_; }
   const Matrix& null_space() const { return right_; }
-  double largest_condition() const { return conditions_.cwiseAbs().maxCoeff(); }
+  /// How far from here, in the scale, the conditions may hold: by the largest of them over how fast they
+  /// change, after `set_forms`; and the same of the matrix with its borders being singular.
+  double away() const { return conditions_.cwiseAbs().maxCoeff() / largest_slope(); }
+  double away_from_more() const;
   double residual() const { return linear_.residual().lpNorm<Eigen::Infinity>(); }
 
-  /// Chooses borders here. False where the matrix is singular with them: it has more null vectors.
+  /// Chooses borders here. False where the matrix is singular with them to the last digit.
   [[nodiscard]] bool settle();
 
   /// Moves by one Newton correction of F = 0 and, by least squares, of G = 0, after `set_forms`.
@@ -103,6 +107,9 @@ class DoublePoint {
   }
 
  private:
+  double largest_slope() const {
+    return std::max(forms_[0].cwiseAbs().maxCoeff(), forms_[1].cwiseAbs().maxCoeff());
+  }
   Vector parameters(double value) const { return value * Vector::Unit(at_.parameters.size(), active_); }
   [[nodiscard]] bool solve_borders();
   /// psi^T F_zz d at d h from here, n + 1 by 2 in the scale.
@@ -116,6 +123,7 @@ class DoublePoint {
   SecondDerivative second_;
   std::unique_ptr<BorderedSolver> solver_;
   Vector scale_;
+  double size_ = 1;    // of dF/du
   Matrix columns_;     // B
   Matrix border_;      // C, n + 1 by 3
   Matrix left_;        // psi, n by 2
