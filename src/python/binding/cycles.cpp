@@ -27,9 +27,9 @@ std::vector<continuation::CycleBranch> traced_cycles(const std::shared_ptr<const
                                                      const continuation::CycleOptions& cycles,
                                                      const continuation::Observer& observer) {
   if (!settle && !field->is_periodic()) {
-    const continuation::Branch equilibria = both
-                                                ? continuation::trace_both(problem, guess, unwatched(options))
-                                                : continuation::trace(problem, guess, unwatched(options));
+    const continuation::TraceOptions unseen = unwatched(options);
+    const continuation::Branch equilibria =
+        both ? continuation::trace_both(problem, guess, unseen) : continuation::trace(problem, guess, unseen);
     if (equilibria.stop == continuation::Stop::no_start) throw std::invalid_argument(equilibria.explanation);
     return trace_cycles_leaving(field, {equilibria}, options, cycles, observer, follow);
   }
@@ -59,10 +59,7 @@ Handles handles_of(const std::shared_ptr<PythonProblem>& problem, const continua
                    const continuation::OrbitOptions& orbits, const std::vector<OneBranch>& branches) {
   Handles handles;
   for (const OneBranch& one : branches) {
-    TracedBranch traced = traced_of(problem, options, one.branch);
-    auto request = std::make_shared<CaseBranch>(*traced.request);
-    request->cycles.options = orbits;
-    traced.request = std::move(request);
+    TracedBranch traced = traced_of(problem, options, one.branch, orbits);
     traced.base.problem = one.problem;
     handles.push_back(std::make_shared<BranchHandle>(std::move(traced), problem));
   }

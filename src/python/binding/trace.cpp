@@ -26,8 +26,10 @@ using continuation::Guess;
 using continuation::PointType;
 using continuation::TraceOptions;
 
-/// A further branch of the same problem.
-TracedBranch beside(const BranchHandle& handle, const TraceOptions& options, Branch branch) {
+/// A further branch of the same model: of `base`, or of a curve over it.
+TracedBranch beside(const BranchHandle& handle, const TraceOptions& options, Branch branch,
+                    std::shared_ptr<const continuation::Problem> base,
+                    std::shared_ptr<const continuation::ExtendedProblem> curve = nullptr) {
   TracedBranch traced = handle.traced();
   auto request = std::make_shared<CaseBranch>(*traced.request);
   request->options = options;
@@ -37,8 +39,13 @@ TracedBranch beside(const BranchHandle& handle, const TraceOptions& options, Bra
   traced.branch = std::move(branch);
   traced.certificate.reset();
   traced.told.reset();
-  traced.curve.reset();
+  traced.base.problem = std::move(base);
+  traced.curve = std::move(curve);
   return traced;
+}
+
+continuation::CurveWindow window_of(const std::optional<std::pair<double, double>>& given) {
+  return given ? continuation::CurveWindow{given->first, given->second} : continuation::CurveWindow{};
 }
 
 /// What a given derivative is that is not that of its function.
@@ -135,8 +142,8 @@ Handles trace_guesses(const BranchHandle& handle, const std::vector<Guess>& gues
     Branch branch = in_engine(options, progress, [&](const auto& observer) {
       return continuation::trace(*handle.traced().base.problem, guess, options, observer);
     });
-    handles.push_back(
-        std::make_shared<BranchHandle>(beside(handle, options, std::move(branch)), handle.problem()));
+    handles.push_back(std::make_shared<BranchHandle>(
+        beside(handle, options, std::move(branch), handle.traced().base.problem), handle.problem()));
   }
   return handles;
 }
@@ -149,9 +156,8 @@ Handles trace_starts(const BranchHandle& handle, const std::vector<continuation:
     continuation::OrbitBranch one = in_engine(options, progress, [&](const auto& observer) {
       return trace_orbits(start, options, handle.traced().request->cycles.options, observer);
     });
-    TracedBranch traced = beside(handle, options, std::move(one.branch));
-    traced.base.problem = std::move(one.problem);
-    handles.push_back(std::make_shared<BranchHandle>(std::move(traced), handle.problem()));
+    handles.push_back(std::make_shared<BranchHandle>(
+        beside(handle, options, std::move(one.branch), std::move(one.problem)), handle.problem()));
   }
   return handles;
 }
@@ -202,17 +208,14 @@ std::vector<continuation::OrbitStart> orbits_leaving(const BranchHandle& handle,
 Handles switch_curves(const BranchHandle& handle, std::size_t point,
                       const std::optional<std::pair<double, double>>& window, TraceOptions& options,
                       const py::object& progress) {
-  const continuation::CurveWindow bounds =
-      window ? continuation::CurveWindow{window->first, window->second} : continuation::CurveWindow{};
+  const std::vector<FurtherCurve> further =
+      handle.heard([&] { return further_curves(handle.traced(), handle.point(point), window_of(window)); });
   Handles handles;
-  for (const FurtherCurve& one :
-       handle.heard([&] { return further_curves(handle.traced(), handle.point(point), bounds); })) {
+  for (const FurtherCurve& one : further) {
     TracedBranch found =
         in_engine(options, progress, [&](const auto& observer) { return one.trace(options, observer); });
-    TracedBranch traced = beside(handle, options, std::move(found.branch));
-    traced.base.problem = std::move(found.base.problem);
-    traced.curve = std::move(found.curve);
-    handles.push_back(std::make_shared<BranchHandle>(std::move(traced), handle.problem()));
+    handles.push_back(std::make_shared<BranchHandle>(
+        beside(handle, options, std::move(found.branch), found.base.problem, found.curve), handle.problem()));
   }
   return handles;
 }
@@ -250,17 +253,14 @@ std::shared_ptr<BranchHandle> curve_through(const BranchHandle& handle, std::siz
   continuation::index_of(base.parameter_names(), options.parameter);
   if (handle.problem()) handle.problem()->activate(options.parameter);
   if (options.extrema_of.empty()) options.extrema_of = {observable.empty() ? active : observable};
-  const continuation::CurveWindow bounds =
-      window ? continuation::CurveWindow{window->first, window->second} : continuation::CurveWindow{};
   continuation::Curve curve = in_engine(options, progress, [&](const auto& observer) {
     return continuation::trace_curve_through(handle.traced().base.problem, active, handle.point(point),
-                                             observable, options, bounds,
+                                             observable, options, window_of(window),
                                              handle.traced().request->cycles.options, observer);
   });
-  TracedBranch traced = beside(handle, options, std::move(curve.branch));
-  traced.base.problem = std::move(curve.base);
-  traced.curve = std::move(curve.problem);
-  return std::make_shared<BranchHandle>(std::move(traced), handle.problem());
+  return std::make_shared<BranchHandle>(
+      beside(handle, options, std::move(curve.branch), std::move(curve.base), std::move(curve.problem)),
+      handle.problem());
 }
 
 /// A branch with the points that follow it; those with negative arclength lie before it.
@@ -294,9 +294,9 @@ std::shared_ptr<BranchHandle> resume(const BranchHandle& handle, const py::dict&
                                       handle.traced().request->cycles.options)
                : continuation::resume(*handle.traced().base.problem, checkpoint, options, observer);
   });
-  TracedBranch traced = beside(handle, options, joined(handle.branch(), std::move(after)));
-  traced.curve = handle.traced().curve;
-  return std::make_shared<BranchHandle>(std::move(traced), handle);
+  return std::make_shared<BranchHandle>(beside(handle, options, joined(handle.branch(), std::move(after)),
+                                               handle.traced().base.problem, handle.traced().curve),
+                                        handle);
 }
 
 /// From a text that was kept: the points that follow.

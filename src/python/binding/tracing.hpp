@@ -41,12 +41,14 @@ auto in_engine(continuation::TraceOptions& options, const py::object& progress, 
 }
 
 inline TracedBranch traced_of(const std::shared_ptr<PythonProblem>& problem,
-                              const continuation::TraceOptions& options, continuation::Branch branch) {
+                              const continuation::TraceOptions& options, continuation::Branch branch,
+                              const continuation::OrbitOptions& orbits = {}) {
   auto request = std::make_shared<CaseBranch>();
   request->values = nlohmann::ordered_json::object();
   request->problem.model = written_in_python;
   request->options = options;
   request->options.go_on = {};
+  request->cycles.options = orbits;
   TracedBranch traced;
   traced.request = request;
   traced.base.problem = traced_problem(problem);
