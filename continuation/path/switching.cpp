@@ -9,6 +9,7 @@
 
 #include "arcslip/continuation/events/corner.hpp"
 #include "arcslip/continuation/path/symmetric_branches.hpp"
+#include "arcslip/continuation/points/multiple_point.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 
 namespace arcslip::continuation {

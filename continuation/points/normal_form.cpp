@@ -1,13 +1,7 @@
 #include "arcslip/continuation/points/normal_form.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-
-#include "arcslip/zero_between.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -102,108 +96,6 @@ class CubicTerm {
   SecondDerivative second_;
   double step_ = 0.02;
 };
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a(0) * b(1) - a(1) * b(0); }
-
-Eigen::Vector2d on_circle(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
-/// Where a form of low degree in two variables changes its sign, as angles on half a circle.
-std::vector<double> zeros_on_half_circle(const std::function<double(double angle)>& form) {
-  constexpr int places = 180;
-  constexpr double begin = 0.1;  // no place of a symmetric form's zeros
-  std::vector<double> zeros;
-  double from = begin;
-  double at_from = form(from);
-  for (int i = 1; i <= places; ++i) {
-    const double to = begin + pi * i / places;
-    const double at_to = form(to);
-    if (at_from * at_to < 0) zeros.push_back(zero_between(form, from, to, at_from, at_to));
-    from = to;
-    at_from = at_to;
-  }
-  return zeros;
-}
-
-/// The other branches through a double point: y = E x + y_0 t, in the coordinates of its null space.
-class OtherBranches {
- public:
-  OtherBranches(DoublePoint& point, const Eigen::Vector3d& own, double negligible)
-      : point_(point), own_(own.normalized()), negligible_(negligible) {
-    const Eigen::Matrix3d basis = Eigen::HouseholderQR<Eigen::Matrix<double, 3, 1>>(own_).householderQ();
-    across_ = basis.rightCols(2);
-    for (Index j = 0; j < 2; ++j) b_.col(j) = 2 * point.quadratic(own_, across_.col(j));
-  }
-
-  std::vector<Eigen::Vector3d> all() {
-    if (!(std::abs(b_.determinant()) > negligible_ * b_.squaredNorm())) return {};
-    const auto second = [this](double angle) {
-      const Eigen::Vector3d x = across_ * on_circle(angle);
-      return point_.quadratic(x, x);
-    };
-    if (tells(second, b_.norm())) return zeros(second);
-    Eigen::Matrix4d powers;
-    Eigen::Matrix<double, 4, 2> values;
-    for (Index i = 0; i < 4; ++i) {
-      const double angle = places[static_cast<std::size_t>(i)];
-      powers.row(i) = cubes(angle).transpose();
-      values.row(i) = point_.cubic(at(angle)).transpose();
-    }
-    const Eigen::Matrix<double, 2, 4> terms = (powers.inverse() * values).transpose();
-    const auto third = [&](double angle) -> Eigen::Vector2d { return terms * cubes(angle); };
-    return tells(third, terms.norm()) ? zeros(third) : std::vector<Eigen::Vector3d>();
-  }
-
- private:
-  static constexpr std::array<double, 4> places{0.1, 0.9, 1.7, 2.5};  // on the half circle, of any form
-
-  static Eigen::Vector4d cubes(double angle) {
-    const Eigen::Vector2d x = on_circle(angle);
-    return {x(0) * x(0) * x(0), x(0) * x(0) * x(1), x(0) * x(1) * x(1), x(1) * x(1) * x(1)};
-  }
-
-  /// By the terms of second order: t b x + q(x) has no part along b x.
-  Eigen::Vector3d at(double angle) const {
-    const Eigen::Vector2d bx = b_ * on_circle(angle);
-    const Eigen::Vector3d x = across_ * on_circle(angle);
-    return x - bx.dot(point_.quadratic(x, x)) / bx.squaredNorm() * own_;
-  }
-
-  /// Whether what is beside b x is more than rounding of terms of such a size.
-  template <class Terms>
-  bool tells(const Terms& terms, double size) const {
-    return std::any_of(places.begin(), places.end(), [&](double angle) {
-      return std::abs(cross(b_ * on_circle(angle), terms(angle))) > negligible_ * b_.norm() * size;
-    });
-  }
-
-  template <class Terms>
-  std::vector<Eigen::Vector3d> zeros(const Terms& terms) const {
-    const auto beside = [&](double angle) { return cross(b_ * on_circle(angle), terms(angle)); };
-    std::vector<Eigen::Vector3d> found;
-    for (const double angle : zeros_on_half_circle(beside)) found.push_back(at(angle));
-    return found;
-  }
-
-  DoublePoint& point_;
-  Eigen::Vector3d own_;
-  double negligible_;
-  Eigen::Matrix<double, 3, 2> across_;  // E
-  Eigen::Matrix2d b_;
-};
-
-/// As its own conditions have it, or where they do not find it there as it was.
-void locate(DoublePoint& point, double near) {
-  const Guess begun = point.at();
-  const double residual = point.residual();
-  bool is_settled = true;
-  for (int i = 0; i < 2 && is_settled; ++i) {
-    is_settled = point.set_forms();
-    if (is_settled) point.correct();
-    is_settled = is_settled && point.settle();
-  }
-  if (is_settled && point.away_from(begun) < near && point.residual() <= residual) return;
-  point.move_to(begun);
-}
 
 }  // namespace
 
@@ -304,22 +196,6 @@ std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index p
     result.evaluations += cubic.evaluations();
   }
   return result;
-}
-
-std::optional<MultiplePoint> multiple_point(const Problem& problem, Index active, const Guess& branch,
-                                            const Tolerances& tolerances) {
-  if (problem.size() < 2) return std::nullopt;
-  DoublePoint point(problem, active, branch);
-  const MultiplePoint untold{branch, false, {}};
-  if (!point.settle()) return untold;
-  if (!point.set_forms() || !(point.away() < tolerances.same_point)) return std::nullopt;
-  if (!(point.away_from_more() > tolerances.same_point)) return untold;
-  locate(point, tolerances.same_point);
-  MultiplePoint found{point.at(), true, {}};
-  if (!point.set_forms()) return found;
-  OtherBranches others(point, point.coordinates(branch.direction), tolerances.turns);
-  for (const Eigen::Vector3d& way : others.all()) found.directions.push_back(point.direction(way));
-  return found;
 }
 
 PointType turn_of_folds(const Problem& problem, Index parameter, const Guess& fold) {

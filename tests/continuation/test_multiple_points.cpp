@@ -140,6 +140,22 @@ class EqualCells : public Problem {
   double d_;
 };
 
+/// The same cells with a sparse matrix.
+class SparseCells : public EqualCells {
+ public:
+  using EqualCells::EqualCells;
+  bool sparse() const override { return true; }
+  bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                const Evaluation& out) const override {
+    Matrix jacobian(size(), size());
+    Evaluation dense = out;
+    dense.jacobian = &jacobian;
+    if (!EqualCells::evaluate(u, p, regime, dense)) return false;
+    if (out.sparse_jacobian != nullptr) *out.sparse_jacobian = jacobian.sparseView(0, 0);
+    return true;
+  }
+};
+
 std::vector<double> lambdas(const std::vector<BranchPoint>& points) {
   std::vector<double> all;
   for (const BranchPoint& point : points) all.push_back(point.parameters(0));
@@ -350,6 +366,20 @@ TEST_CASE("All branches of three equal cells are followed without known symmetri
       });
     });
     CHECK(is_there);
+  }
+}
+
+TEST_CASE("A sparse problem's branches leave its double points as a dense one's do", "[multiple points]") {
+  const Guess start{Vector::Constant(3, -3.0), vector_of({-3})};
+  const std::vector<Branch> dense = trace_connected(EqualCells(3, 0.1), start, over("I", -3, 3));
+  const std::vector<Branch> sparse = trace_connected(SparseCells(3, 0.1), start, over("I", -3, 3));
+  REQUIRE(sparse.size() == dense.size());
+  for (std::size_t i = 0; i < sparse.size(); ++i) {
+    CHECK(sparse[i].stop == dense[i].stop);
+    const std::vector<double> found = lambdas(of_type(sparse[i], PointType::branch_point));
+    const std::vector<double> wanted = lambdas(of_type(dense[i], PointType::branch_point));
+    REQUIRE(found.size() == wanted.size());
+    for (std::size_t k = 0; k < found.size(); ++k) CHECK_THAT(found[k], WithinAbs(wanted[k], 1e-9));
   }
 }
 
