@@ -192,6 +192,11 @@ def test_switch_leads_to_cycles_and_to_curves_of_these():
     (folds,) = curve.switch(only(curve, "generalized_hopf"), window=(-1, 1))
     assert folds["mu"] == pytest.approx(-(folds["b"] ** 2) / 4, abs=1e-9)
     assert folds["b"][-1] == 2
+    assert 0 < cycles.seconds < 60 and 0 < folds.seconds < 60
+    orbit = folds.orbit(-1)  # of x^2 + y^2 = b/2
+    np.testing.assert_allclose(orbit["x"] ** 2 + orbit["y"] ** 2, 1, atol=1e-7)
+    assert orbit["t"][-1] == pytest.approx(2 * np.pi, abs=1e-7)
+    np.testing.assert_allclose(folds.multipliers(-1), [1], atol=1e-5)
 
 
 def test_switch_leads_to_cycles_of_twice_the_period():

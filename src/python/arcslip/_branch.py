@@ -51,6 +51,8 @@ class Branch(_Columns):
         What makes its special points doubtful, or "".
     complete : bool
         Whether it was traced to its end.
+    seconds : float
+        What it took, s; of branches that were traced together the mean.
     derivatives : dict
         Of a problem written in Python: where "jacobian" and "parameter_jacobian" come from, "given", "complex step"
         or "central differences".
@@ -159,7 +161,9 @@ class Branch(_Columns):
         return self._core.checkpoint
 
     def orbit(self, point):
-        """The orbit at a point of a branch: one period of a cycle, or the solution of a boundary value problem.
+        """The orbit at a point: one period of a cycle, or the solution of a boundary value problem.
+
+        Of a branch, or of a curve in two parameters.
 
         Parameters
         ----------

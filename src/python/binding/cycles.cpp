@@ -56,11 +56,13 @@ continuation::OrbitOptions held_on(const py::dict& held) {
 
 template <class OneBranch>
 Handles handles_of(const std::shared_ptr<PythonProblem>& problem, const continuation::TraceOptions& options,
-                   const continuation::OrbitOptions& orbits, const std::vector<OneBranch>& branches) {
+                   const continuation::OrbitOptions& orbits, const std::vector<OneBranch>& branches,
+                   const Stopwatch& watch) {
   Handles handles;
   for (const OneBranch& one : branches) {
     TracedBranch traced = traced_of(problem, options, one.branch, orbits);
     traced.base.problem = one.problem;
+    traced.seconds = watch.seconds() / static_cast<double>(branches.size());
     handles.push_back(std::make_shared<BranchHandle>(std::move(traced), problem));
   }
   return handles;
@@ -80,11 +82,12 @@ Handles trace_cycles(const std::shared_ptr<PythonProblem>& problem, const py::ob
     forced = std::make_shared<const TimedField>(problem, *period);
     guess.parameters.conservativeResize(guess.parameters.size() - 1);
   }
+  const Stopwatch watch;
   const auto branches = in_engine(options, progress, [&](const auto& observer) {
     return traced_cycles(field_of(problem, forced), *traced_problem(problem), guess, settle, follow,
                          how == "both", options, cycles, observer);
   });
-  return handles_of(problem, options, cycles, branches);
+  return handles_of(problem, options, cycles, branches, watch);
 }
 
 /// The branch of what has orbits alone from its guess, or what motions come to, and, with `follow`, all that
@@ -105,32 +108,45 @@ Handles trace_orbit(const std::shared_ptr<PythonProblem>& problem, const Formula
   continuation::OrbitStart start = formulas.orbits->orbit(settings, orbits, settle);
   continuation::index_of(start.problem->parameter_names(), options.parameter);
   start.both_ways = how == "both";
+  const Stopwatch watch;
   const auto branches = in_engine(options, progress, [&](const auto& observer) {
     if (follow) return trace_connected_orbits(start, options, orbits, observer);
     return std::vector{trace_orbits(start, options, orbits, observer)};
   });
-  return handles_of(problem, options, orbits, branches);
+  return handles_of(problem, options, orbits, branches, watch);
+}
+
+/// A point of a branch of orbits, or of a curve of special ones in two parameters, and what it solves; null
+/// where that is no problem of orbits.
+struct OrbitPoint {
+  const continuation::OrbitProblem* orbits;
+  continuation::BasePoint at;
+};
+OrbitPoint orbit_point(const BranchHandle& handle, std::size_t i) {
+  const continuation::BranchPoint& point = handle.point(i);
+  if (handle.curve() == nullptr)
+    return {orbits_of(handle.traced()), {point.unknowns, point.parameters, point.regime, {}}};
+  return {dynamic_cast<const continuation::OrbitProblem*>(&handle.curve()->base()),
+          handle.curve()->split(point.unknowns, point.parameters, point.regime)};
 }
 
 /// The orbit of a point: what its times are called, these, unknowns x times, their names.
 py::tuple orbit_of(const BranchHandle& handle, std::size_t i) {
-  const continuation::OrbitProblem* orbits = orbits_of(handle.traced());
+  const auto [orbits, at] = orbit_point(handle, i);
   if (orbits == nullptr)
     throw py::value_error("orbit: only of branches of cycles and of boundary value problems");
-  const continuation::BranchPoint& point = handle.point(i);
-  return py::make_tuple(orbits->time_name(),
-                        give(orbits->times(point.unknowns, point.parameters, point.regime)),
-                        give(orbits->told_orbit(point.unknowns)), orbits->told_names());
+  return py::make_tuple(orbits->time_name(), give(orbits->times(at.unknowns, at.parameters, at.regime)),
+                        give(orbits->told_orbit(at.unknowns)), orbits->told_names());
 }
 
 /// The Floquet multipliers of a point as their logarithms.
 py::array log_multipliers_of(const BranchHandle& handle, std::size_t i) {
-  const continuation::OrbitProblem* orbits = orbits_of(handle.traced());
-  if (orbits == nullptr || orbits->pair_crossing() != continuation::PointType::neimark_sacker)
+  const OrbitPoint point = orbit_point(handle, i);
+  const continuation::BasePoint& at = point.at;
+  if (point.orbits == nullptr || point.orbits->pair_crossing() != continuation::PointType::neimark_sacker)
     throw py::value_error("multipliers: only of branches of cycles");
-  const continuation::BranchPoint& point = handle.point(i);
   return give(
-      handle.heard([&] { return orbits->log_multipliers(point.unknowns, point.parameters, point.regime); }));
+      handle.heard([&] { return point.orbits->log_multipliers(at.unknowns, at.parameters, at.regime); }));
 }
 
 }  // namespace

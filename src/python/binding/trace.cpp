@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <chrono>
 #include <sstream>
 
 #include "arcslip/continuation/curves/orbit_curve.hpp"
@@ -27,7 +26,7 @@ using continuation::PointType;
 using continuation::TraceOptions;
 
 /// A further branch of the same model: of `base`, or of a curve over it.
-TracedBranch beside(const BranchHandle& handle, const TraceOptions& options, Branch branch,
+TracedBranch beside(const BranchHandle& handle, const TraceOptions& options, Branch branch, double seconds,
                     std::shared_ptr<const continuation::Problem> base,
                     std::shared_ptr<const continuation::ExtendedProblem> curve = nullptr) {
   TracedBranch traced = handle.traced();
@@ -37,6 +36,7 @@ TracedBranch beside(const BranchHandle& handle, const TraceOptions& options, Bra
   request->curve.reset();
   traced.request = request;
   traced.branch = std::move(branch);
+  traced.seconds = seconds;
   traced.certificate.reset();
   traced.told.reset();
   traced.base.problem = std::move(base);
@@ -83,15 +83,15 @@ Handles trace(const std::shared_ptr<PythonProblem>& problem, const py::handle& u
   const Guess guess = guess_of(*problem, u, p, regime);
   const std::shared_ptr<const continuation::Problem> traced = traced_problem(problem);
   if (check) require_exact(*traced, guess, options);
-  const auto begun = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const std::vector<Branch> branches = in_engine(options, progress, [&](const auto& observer) {
     return traced_by(how, *traced, guess, box, options, observer);
   });
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begun;
+  const double seconds = watch.seconds() / static_cast<double>(branches.size());
   Handles handles;
   for (const Branch& branch : branches) {
     TracedBranch one = traced_of(problem, options, branch);
-    one.seconds = seconds.count() / static_cast<double>(branches.size());
+    one.seconds = seconds;
     handles.push_back(std::make_shared<BranchHandle>(std::move(one), problem));
   }
   return handles;
@@ -139,11 +139,13 @@ Handles trace_guesses(const BranchHandle& handle, const std::vector<Guess>& gues
                       const py::object& progress) {
   Handles handles;
   for (const Guess& guess : guesses) {
+    const Stopwatch watch;
     Branch branch = in_engine(options, progress, [&](const auto& observer) {
       return continuation::trace(*handle.traced().base.problem, guess, options, observer);
     });
     handles.push_back(std::make_shared<BranchHandle>(
-        beside(handle, options, std::move(branch), handle.traced().base.problem), handle.problem()));
+        beside(handle, options, std::move(branch), watch.seconds(), handle.traced().base.problem),
+        handle.problem()));
   }
   return handles;
 }
@@ -153,11 +155,13 @@ Handles trace_starts(const BranchHandle& handle, const std::vector<continuation:
                      TraceOptions& options, const py::object& progress) {
   Handles handles;
   for (const continuation::OrbitStart& start : starts) {
+    const Stopwatch watch;
     continuation::OrbitBranch one = in_engine(options, progress, [&](const auto& observer) {
       return trace_orbits(start, options, handle.traced().request->cycles.options, observer);
     });
     handles.push_back(std::make_shared<BranchHandle>(
-        beside(handle, options, std::move(one.branch), std::move(one.problem)), handle.problem()));
+        beside(handle, options, std::move(one.branch), watch.seconds(), std::move(one.problem)),
+        handle.problem()));
   }
   return handles;
 }
@@ -212,10 +216,12 @@ Handles switch_curves(const BranchHandle& handle, std::size_t point,
       handle.heard([&] { return further_curves(handle.traced(), handle.point(point), window_of(window)); });
   Handles handles;
   for (const FurtherCurve& one : further) {
+    const Stopwatch watch;
     TracedBranch found =
         in_engine(options, progress, [&](const auto& observer) { return one.trace(options, observer); });
     handles.push_back(std::make_shared<BranchHandle>(
-        beside(handle, options, std::move(found.branch), found.base.problem, found.curve), handle.problem()));
+        beside(handle, options, std::move(found.branch), watch.seconds(), found.base.problem, found.curve),
+        handle.problem()));
   }
   return handles;
 }
@@ -253,14 +259,15 @@ std::shared_ptr<BranchHandle> curve_through(const BranchHandle& handle, std::siz
   continuation::index_of(base.parameter_names(), options.parameter);
   if (handle.problem()) handle.problem()->activate(options.parameter);
   if (options.extrema_of.empty()) options.extrema_of = {observable.empty() ? active : observable};
+  const Stopwatch watch;
   continuation::Curve curve = in_engine(options, progress, [&](const auto& observer) {
     return continuation::trace_curve_through(handle.traced().base.problem, active, handle.point(point),
                                              observable, options, window_of(window),
                                              handle.traced().request->cycles.options, observer);
   });
-  return std::make_shared<BranchHandle>(
-      beside(handle, options, std::move(curve.branch), std::move(curve.base), std::move(curve.problem)),
-      handle.problem());
+  return std::make_shared<BranchHandle>(beside(handle, options, std::move(curve.branch), watch.seconds(),
+                                               std::move(curve.base), std::move(curve.problem)),
+                                        handle.problem());
 }
 
 /// A branch with the points that follow it; those with negative arclength lie before it.
@@ -287,6 +294,7 @@ std::shared_ptr<BranchHandle> resume(const BranchHandle& handle, const py::dict&
   if (!handle.branch().checkpoint)
     throw py::value_error("resume: the branch has come to its end; there is nothing further");
   const CurveUse alone(handle.curve_flag());
+  const Stopwatch watch;
   Branch after = in_engine(options, progress, [&](const auto& observer) {
     const continuation::Checkpoint& checkpoint = *handle.branch().checkpoint;
     return handle.curve()
@@ -294,9 +302,10 @@ std::shared_ptr<BranchHandle> resume(const BranchHandle& handle, const py::dict&
                                       handle.traced().request->cycles.options)
                : continuation::resume(*handle.traced().base.problem, checkpoint, options, observer);
   });
-  return std::make_shared<BranchHandle>(beside(handle, options, joined(handle.branch(), std::move(after)),
-                                               handle.traced().base.problem, handle.traced().curve),
-                                        handle);
+  return std::make_shared<BranchHandle>(
+      beside(handle, options, joined(handle.branch(), std::move(after)),
+             handle.traced().seconds + watch.seconds(), handle.traced().base.problem, handle.traced().curve),
+      handle);
 }
 
 /// From a text that was kept: the points that follow.
@@ -312,10 +321,13 @@ std::shared_ptr<BranchHandle> trace_on(const std::shared_ptr<PythonProblem>& pro
       throw py::value_error(fmt::format("checkpoint: {}", error.what()));
     }
   }();
+  const Stopwatch watch;
   Branch branch = in_engine(options, progress, [&](const auto& observer) {
     return continuation::resume(*traced_problem(problem), checkpoint, options, observer);
   });
-  return std::make_shared<BranchHandle>(traced_of(problem, options, std::move(branch)), problem);
+  TracedBranch traced = traced_of(problem, options, std::move(branch));
+  traced.seconds = watch.seconds();
+  return std::make_shared<BranchHandle>(std::move(traced), problem);
 }
 
 Step step_named(const std::string& name) {

@@ -4,11 +4,24 @@
 
 #include <pybind11/stl.h>
 
+#include <chrono>
+
 #include "python/binding/branch.hpp"
 
 namespace arcslip::python {
 
 using Handles = std::vector<std::shared_ptr<BranchHandle>>;
+
+/// How long it has been there, s.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+};
 
 /// What stands for the library's model where a problem is written in Python.
 inline const std::shared_ptr<const problems::LibraryModel> written_in_python =
