@@ -48,11 +48,11 @@ class Mistaken : public FreudensteinRoth {
   Spoil spoil_;
 };
 
-const Guess start{vector_of({15, -2}), vector_of({0})};
+const Guess enz_start{vector_of({15, -2}), vector_of({0})};
 
 std::string complaint(const Problem& problem) {
   try {
-    return trace(problem, start, over("x3", 0, 1)).points.empty() ? "no point" : "none";
+    return trace(problem, enz_start, over("x3", 0, 1)).points.empty() ? "no point" : "none";
   } catch (const std::logic_error& error) {
     return error.what();
   }
@@ -151,7 +151,7 @@ TEST_CASE("A Jacobian that is 5 % wrong is named, however the branch ends") {
   };
   for (const Index row : {0, 1}) {
     for (const Index column : {0, 1}) {
-      const Branch branch = trace(spoilt(row, column, 1.05), start, over("x3", 0, 1));
+      const Branch branch = trace(spoilt(row, column, 1.05), enz_start, over("x3", 0, 1));
       INFO(branch.explanation);
       CHECK_THAT(branch.warning,
                  ContainsSubstring("the Jacobian differs from differences of the residual by 5 "
@@ -160,14 +160,14 @@ TEST_CASE("A Jacobian that is 5 % wrong is named, however the branch ends") {
       CHECK_THAT(branch.explanation, ContainsSubstring(branch.warning));
     }
   }
-  const Branch astray = trace(spoilt(0, 1, -3), start, over("x3", 0, 1));
+  const Branch astray = trace(spoilt(0, 1, -3), enz_start, over("x3", 0, 1));
   CHECK_FALSE(astray.complete());
   CHECK_THAT(astray.explanation, ContainsSubstring("in dF0/du1"));
   const Branch by_parameter = trace(Mistaken([](const Vector&, const Evaluation& out) {
                                       if (out.parameter_jacobian != nullptr)
                                         (*out.parameter_jacobian)(1, 0) *= 0.9;
                                     }),
-                                    start, over("x3", 0, 1));
+                                    enz_start, over("x3", 0, 1));
   CHECK_THAT(by_parameter.explanation, ContainsSubstring("by 10 % in dF1/dx3"));
 }
 
