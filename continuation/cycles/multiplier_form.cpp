@@ -280,27 +280,29 @@ bool at_fold(const Rounds& rounds, Expansion& expansion, Vector& coefficient) {
   return true;
 }
 
+/// ln mu/T of all multipliers, with ln -mu of those below 0; empty where they are not known.
+ComplexVector rates_at(const Problem& problem, const Guess& at) {
+  ComplexVector rates;
+  return problem.eigenvalues(at.unknowns, at.parameters, at.regime, rates) ? rates : ComplexVector();
+}
+
 /// That of the pair nearest to the unit circle; 0 without one.
-Complex torus_multiplier(const Problem& problem, const Guess& at, double duration) {
-  ComplexVector values;
-  if (!problem.eigenvalues(at.unknowns, at.parameters, at.regime, values)) return 0;
+Complex torus_multiplier(const ComplexVector& rates, double duration) {
   Complex nearest = 0;
   double least = std::numeric_limits<double>::infinity();
-  for (const Complex& value : values) {
-    if (!(value.imag() > 0) || !(std::abs(value.real()) < least)) continue;
-    least = std::abs(value.real());
-    nearest = std::polar(1.0, value.imag() * duration);
+  for (const Complex& rate : rates) {
+    if (!(rate.imag() > 0) || !(std::abs(rate.real()) < least)) continue;
+    least = std::abs(rate.real());
+    nearest = std::polar(1.0, rate.imag() * duration);
   }
   return nearest;
 }
 
 /// Whether another multiplier is there as well: there is no coefficient then.
-bool is_double(const Problem& problem, const Guess& at, Complex multiplier, double duration) {
+bool is_double(const ComplexVector& rates, Complex multiplier, double duration) {
   constexpr double same = 1e-6;  // of ln mu: as well as the point is located, and far above rounding
-  ComplexVector values;
-  if (!problem.eigenvalues(at.unknowns, at.parameters, at.regime, values)) return false;
   const double angle = multiplier.imag() == 0 ? 0 : std::arg(multiplier);  // rates are those of -mu below 0
-  return ((values.array() * duration - Complex(0, angle)).abs() < same).count() > 1;
+  return ((rates.array() * duration - Complex(0, angle)).abs() < same).count() > 1;
 }
 
 }  // namespace
@@ -319,11 +321,11 @@ std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType 
   if (!is_known || (!is_cycle && (!problem.is_map() || problem.sparse()))) return std::nullopt;
   const Rounds rounds(problem, at);
   if (!rounds.exists()) return std::nullopt;
+  const ComplexVector rates = type == PointType::fold ? ComplexVector() : rates_at(problem, at);
   Complex multiplier = type == PointType::period_doubling ? -1 : 1;
   if (type == PointType::neimark_sacker)
-    multiplier = angle > 0 ? std::polar(1.0, angle) : torus_multiplier(problem, at, rounds.duration());
-  if (multiplier == 0.0) return std::nullopt;
-  if (type != PointType::fold && is_double(problem, at, multiplier, rounds.duration())) return std::nullopt;
+    multiplier = angle > 0 ? std::polar(1.0, angle) : torus_multiplier(rates, rounds.duration());
+  if (multiplier == 0.0 || is_double(rates, multiplier, rounds.duration())) return std::nullopt;
   std::optional<Reduction> reduction;
   if (type != PointType::fold) reduction.emplace(rounds, multiplier);
   Vector numbers;
@@ -345,7 +347,7 @@ std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType 
 std::optional<TurningVector> turning_vector(const CycleProblem& cycles, const Guess& at) {
   const Rounds rounds(cycles, at);
   if (!rounds.exists()) return std::nullopt;
-  const Complex multiplier = torus_multiplier(cycles, at, rounds.duration());
+  const Complex multiplier = torus_multiplier(rates_at(cycles, at), rounds.duration());
   if (multiplier == 0.0) return std::nullopt;
   return TurningVector{null_vectors(rounds.matrix(multiplier, false)).right, std::arg(multiplier)};
 }
