@@ -50,6 +50,7 @@ const types = { switch: ["switch of stick and slip", "circle"], peak: ["peak", "
   generalized_hopf: ["generalised Hopf point", "diamond"], resonance_1_1: ["1:1 resonance", "triangle-down"],
   resonance_1_2: ["1:2 resonance", "triangle-down"], resonance_1_3: ["1:3 resonance", "triangle-down"], resonance_1_4: ["1:4 resonance", "triangle-down"],
   chenciner: ["Chenciner point", "diamond"], generalized_period_doubling: ["generalised period doubling", "diamond"], fold_flip: ["fold-flip point", "hexagram"], fold_neimark_sacker: ["fold-Neimark-Sacker point", "hexagram2"],
+  flip_neimark_sacker: ["flip-Neimark-Sacker point", "hexagon"], double_neimark_sacker: ["double Neimark-Sacker point", "bowtie"],
   isola_centre: ["isola centre", "star"], simple_bifurcation: ["simple bifurcation", "x"],
   birth: ["birth of a peak", "triangle-right"], death: ["death of a peak", "triangle-left"], corner: ["corner", "pentagon"],
   exchange: ["exchange of two peaks", "x"], optimum: ["best preload", "star"], robust: ["best preload with scatter", "diamond"] };

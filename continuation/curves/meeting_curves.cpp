@@ -4,7 +4,6 @@
 
 #include "arcslip/continuation/cycles/doubling_problem.hpp"
 #include "arcslip/continuation/cycles/torus_problem.hpp"
-#include "arcslip/continuation/linear/borders.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 #include "arcslip/continuation/points/fold_problem.hpp"
 #include "arcslip/continuation/points/hopf_problem.hpp"
@@ -27,6 +26,18 @@ bool is_kept_branch_point(const ExtendedProblem& curve, const BasePoint& at) {
          std::abs(located->point.parameters(curve.active()) - parameter) <= there * (1 + std::abs(parameter));
 }
 
+/// The angle of the pair of multipliers nearest to the unit circle but for the curve's own; 0 without one.
+double other_angle(const ExtendedProblem& curve, const BasePoint& at) {
+  const auto* orbits = dynamic_cast<const PeriodicOrbit*>(&curve.base());
+  if (orbits == nullptr ? curve.base().sparse() : orbits->is_trigonometric()) return 0;
+  Vector unknowns;
+  Vector parameters;
+  curve.join(at, unknowns, parameters);
+  ComplexVector values;
+  if (!curve.eigenvalues(unknowns, parameters, at.regime, values)) return 0;
+  return std::sqrt(kappa_of(values)) * (orbits == nullptr ? 1 : orbits->period(at.unknowns, at.parameters));
+}
+
 template <class Special>
 MultiplierCurve curve_of(Index active, const Vector& extras) {
   return {[active](const Problem& base) { return std::make_unique<Special>(base, active); }, extras};
@@ -43,17 +54,20 @@ std::optional<MultiplierCurve> multiplier_curve_meeting(const ExtendedProblem& c
   const auto of_tori = [&](double kappa) {
     return curve_of<TorusProblem>(active, Vector::Constant(1, kappa));
   };
+  const auto of_other_pair = [&]() -> std::optional<MultiplierCurve> {
+    const double angle = other_angle(curve, at);
+    if (!(angle > 0)) return std::nullopt;
+    return of_tori(std::cos(angle));
+  };
   if (!is_of_folds && !is_of_doublings && !is_of_tori) return std::nullopt;
   switch (type) {
     case PointType::fold_flip:
       return is_of_folds ? curve_of<DoublingProblem>(active, {}) : curve_of<FoldProblem>(active, {});
-    case PointType::fold_neimark_sacker: {
-      Vector kappa;
-      const Guess there{at.unknowns, at.parameters, at.regime, {}};
-      if (curve.base().special(PointType::neimark_sacker, active, there, kappa) == nullptr)
-        return std::nullopt;
-      return is_of_folds ? of_tori(kappa(0)) : curve_of<FoldProblem>(active, {});
-    }
+    case PointType::fold_neimark_sacker:
+      return is_of_folds ? of_other_pair() : curve_of<FoldProblem>(active, {});
+    case PointType::flip_neimark_sacker:
+      return is_of_doublings ? of_other_pair() : curve_of<DoublingProblem>(active, {});
+    case PointType::double_neimark_sacker: return of_other_pair();
     case PointType::resonance_1_1: return is_of_tori ? curve_of<FoldProblem>(active, {}) : of_tori(1);
     case PointType::resonance_1_2: return is_of_tori ? curve_of<DoublingProblem>(active, {}) : of_tori(-1);
     default: return std::nullopt;
@@ -83,18 +97,11 @@ CurveStart curve_meeting(const ExtendedProblem& curve, const BranchPoint& point)
     return start;
   }
   const bool meets_hopf = meets_folds ? is_of_folds : is_of_hopf && point.type == PointType::hopf_hopf;
-  ComplexVector values;
-  if (!meets_hopf || curve.base().sparse() ||
-      !curve.base().eigenvalues(at.unknowns, at.parameters, at.regime, values))
-    return start;
+  if (!meets_hopf || curve.base().sparse()) return start;
   double kappa = 0;
   if (point.type != PointType::bogdanov_takens) {
-    if (is_of_hopf) {  // the pair of the curve itself is not meant
-      const Complex own = std::sqrt(Complex(-at.extras(0)));
-      remove_nearest(values, own);
-      remove_nearest(values, -own);
-    }
-    kappa = kappa_of(values);
+    ComplexVector values;
+    if (curve.eigenvalues(point.unknowns, point.parameters, point.regime, values)) kappa = kappa_of(values);
     if (!(kappa > 0)) return start;
   }
   start.problem = std::make_unique<HopfProblem>(curve.base(), curve.active());

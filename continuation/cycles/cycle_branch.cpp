@@ -1,4 +1,5 @@
 #include "arcslip/continuation/cycles/cycle_branch.hpp"
+#include "arcslip/continuation/cycles/orbit_mark.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +14,6 @@
 #include "arcslip/continuation/path/watch.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
-#include "orbit_mark.hpp"
 
 namespace arcslip::continuation {
 namespace {

@@ -5,9 +5,9 @@
 #include <deque>
 
 #include "arcslip/continuation/cycles/cycle_branch.hpp"
+#include "arcslip/continuation/cycles/orbit_mark.hpp"
 #include "arcslip/continuation/cycles/orbit_observables.hpp"
 #include "arcslip/continuation/path/switching.hpp"
-#include "orbit_mark.hpp"
 
 namespace arcslip::continuation {
 namespace {

@@ -27,22 +27,17 @@ void DoublingProblem::fill(BorderedSolver& solver) const {
   solver.set_jacobian(twisted, scale_);
 }
 
-/// c over the size of its terms, prod (1 - mu), each factor over 1 + |mu|, or a determinant, and prod (1 +
-/// mu) of the others.
+/// c over the size of its terms, prod (1 - mu), each factor over 1 + |mu|, and prod (1 + mu) of the others.
 void DoublingProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
   const BasePoint point = split(u, p, regime);
   const auto form =
       multiplier_form(base(), PointType::period_doubling, {point.unknowns, point.parameters, regime, {}});
   values.setConstant(3, std::nan(""));
   if (form) values(0) = form->relative();
-  if (orbits_ != nullptr) {
-    const ComplexVector logs = orbits_->log_multipliers(point.unknowns, point.parameters, regime);
-    values(1) = fold_test(logs);
-    values(2) = second_doubling_test(logs);
-  } else if (at_.evaluate(point.unknowns, point.parameters, regime)) {
-    values(1) = at_.jacobian().determinant();
-    values(2) = second_doubling_test(log_multipliers({at_.jacobian() + Matrix::Identity(count_, count_)}));
-  }
+  const bool is_known = orbits_ != nullptr || at_.evaluate(point.unknowns, point.parameters, regime);
+  const ComplexVector logs = is_known ? log_multipliers(base(), at_, point) : ComplexVector();
+  values(1) = fold_test(logs);
+  values(2) = second_doubling_test(logs);
 }
 
 }  // namespace arcslip::continuation

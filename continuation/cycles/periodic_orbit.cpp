@@ -75,6 +75,13 @@ std::unique_ptr<ExtendedProblem> PeriodicOrbit::special(PointType type, Index ac
                                 extras);
 }
 
+ComplexVector log_multipliers(const Problem& problem, const Linearization& at, const BasePoint& point) {
+  if (const auto* orbits = dynamic_cast<const PeriodicOrbit*>(&problem))
+    return orbits->log_multipliers(point.unknowns, point.parameters, point.regime);
+  if (!problem.is_map() || at.sparse()) return {};
+  return log_multipliers({at.jacobian() + Matrix::Identity(problem.size(), problem.size())});
+}
+
 Index count_beside_duration(const Problem& problem) {
   const auto* orbits = dynamic_cast<const PeriodicOrbit*>(&problem);
   return problem.size() - (orbits != nullptr && orbits->has_duration() ? 1 : 0);

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "arcslip/continuation/cycles/doubling_problem.hpp"
+#include "arcslip/continuation/cycles/floquet.hpp"
 #include "arcslip/continuation/cycles/multiplier_form.hpp"
+#include "arcslip/continuation/linear/borders.hpp"
 
 namespace arcslip::continuation {
 
@@ -58,16 +60,30 @@ Vector TorusProblem::turned(const Vector& x) const {
   return result;
 }
 
+/// ln z / T, as `exponents` has it.
+Complex TorusProblem::eigenvalue(const BasePoint& point) const {
+  const double kappa = point.extras(0);
+  const Complex log = std::abs(kappa) < 1 ? Complex(0, std::acos(kappa)) : std::acosh(std::abs(kappa));
+  return orbits_ == nullptr ? log : log / orbits_->period(point.unknowns, point.parameters);
+}
+
 void TorusProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
   const BasePoint point = split(u, p, regime);
   const double kappa = point.extras(0);
-  values.resize(5);
-  values << 1 - kappa, kappa + 1, kappa + 0.5, kappa, std::nan("");
+  values.setConstant(std::ssize(test_types()), std::nan(""));
+  values.head(4) << 1 - kappa, kappa + 1, kappa + 0.5, kappa;
   constexpr double surely = 1e-6;  // so near to where the pair meets its vectors are rounding
   if (!(std::abs(kappa) < 1 - surely)) return;
   const auto form = multiplier_form(base(), PointType::neimark_sacker,
                                     {point.unknowns, point.parameters, regime, {}}, std::acos(kappa));
   if (form) values(4) = form->relative();  // jumps where terms have poles
+  const bool is_known = orbits_ != nullptr || at_.evaluate(point.unknowns, point.parameters, regime);
+  ComplexVector others = is_known ? log_multipliers(base(), at_, point) : ComplexVector();
+  if (others.size() <= 2) return;
+  remove_nearest(others, Complex(0, std::acos(kappa)));
+  remove_nearest(others, Complex(0, -std::acos(kappa)));
+  values(5) = fold_test(others);
+  values(6) = doubling_test(others);
 }
 
 std::vector<Observable> TorusProblem::observables() const {

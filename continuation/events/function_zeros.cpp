@@ -101,8 +101,9 @@ void pass_zero(const Event& event, const Passage& passage) {
   passage.behind.functions[i] = passage.watch.piece_of(i) ? sign_of(passage.watch.functions()[i])
                                 : event.touches           ? passage.before.functions[i]
                                                           : -passage.before.functions[i];
-  if (event.told && event.type == PointType::branch_point)
-    passage.behind.unstable += passage.real_crossings();
+  const bool crosses =
+      event.type == PointType::branch_point || (event.type != PointType::event && !event.touches);
+  if (event.told && crosses) passage.behind.unstable += passage.real_crossings();
 }
 
 }  // namespace

@@ -131,6 +131,22 @@ Signs signs_at_start(const Stepper& stepper, const Watch& watch) {
   return signs;
 }
 
+namespace {
+
+/// How many eigenvalues are unstable: one on the axis counts as it did before.
+int counted(int before, const Stepper& stepper, const Watch& watch) {
+  if (before < 0 || watch.unstable() < 0) return watch.unstable();
+  const ComplexVector& values = watch.eigenvalues();
+  const double near = values.size() > 0 ? stepper.tolerances().on_axis * values.cwiseAbs().maxCoeff() : 0;
+  const auto above = [&](double bound) {
+    return static_cast<int>(
+        std::count_if(values.begin(), values.end(), [=](const Complex& z) { return z.real() > bound; }));
+  };
+  return std::clamp(before, above(near), above(-near));
+}
+
+}  // namespace
+
 void update(Signs& signs, const Stepper& stepper, const Watch& watch, bool at_event) {
   const auto take = [at_event](int& sign, int now) {
     if (now != 0 && !(at_event && sign != 0)) sign = now;
@@ -140,7 +156,7 @@ void update(Signs& signs, const Stepper& stepper, const Watch& watch, bool at_ev
     take(signs.observables[i], sign_of_slope(stepper, i, stepper.at_here()[i]));
   for (std::size_t i = 0; i < signs.functions.size(); ++i)
     take(signs.functions[i], sign_of(watch.functions()[i]));
-  signs.unstable = watch.unstable();
+  signs.unstable = counted(signs.unstable, stepper, watch);
 }
 
 }  // namespace arcslip::continuation

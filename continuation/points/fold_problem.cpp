@@ -5,7 +5,6 @@
 
 #include "arcslip/continuation/cycles/floquet.hpp"
 #include "arcslip/continuation/cycles/periodic_orbit.hpp"
-#include "arcslip/continuation/linear/borders.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 
 namespace arcslip::continuation {
@@ -33,14 +32,6 @@ std::vector<PointType> FoldProblem::test_types() const {
   return {PointType::cusp, PointType::bogdanov_takens};
 }
 
-/// ln(mu); of a map by its derivatives as they were evaluated last.
-ComplexVector FoldProblem::multipliers_at(const BasePoint& point) const {
-  if (const auto* orbits = dynamic_cast<const PeriodicOrbit*>(&base()))
-    return orbits->log_multipliers(point.unknowns, point.parameters, point.regime);
-  const Index n = base().size();
-  return at_.sparse() ? ComplexVector() : log_multipliers({at_.jacobian() + Matrix::Identity(n, n)});
-}
-
 void FoldProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
   const BasePoint point = split(u, p, regime);
   const Index n = base().size();
@@ -54,7 +45,7 @@ void FoldProblem::test(const Vector& u, const Vector& p, const Regime& regime, V
   if (second_.contract(point.unknowns, point.parameters, regime, w, v, none, row))
     values(0) = row.head(n).dot(v);
   if (base().has_multipliers()) {
-    values(2) = second_fold_test(multipliers_at(point));
+    values(2) = second_fold_test(log_multipliers(base(), at_, point));
     const std::vector<PointType> types = base().test_types();
     const auto doubling = std::find(types.begin(), types.end(), PointType::period_doubling);
     Vector of_base(std::ssize(types));
@@ -69,14 +60,6 @@ void FoldProblem::test(const Vector& u, const Vector& p, const Regime& regime, V
 PointType FoldProblem::turn(const Vector& u, const Vector& p, const Regime& regime) const {
   const BasePoint at = split(u, p, regime);
   return turn_of_folds(base(), active(), {at.unknowns, at.parameters, regime, {}});
-}
-
-bool FoldProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
-                              ComplexVector& values) const {
-  const BasePoint point = split(u, p, regime);
-  if (!base().eigenvalues(point.unknowns, point.parameters, regime, values)) return false;
-  remove_zero(values);
-  return true;
 }
 
 }  // namespace arcslip::continuation

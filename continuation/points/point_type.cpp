@@ -32,6 +32,8 @@ std::string_view to_string(PointType type) {
     case PointType::generalized_period_doubling: return "generalized_period_doubling";
     case PointType::fold_flip: return "fold_flip";
     case PointType::fold_neimark_sacker: return "fold_neimark_sacker";
+    case PointType::flip_neimark_sacker: return "flip_neimark_sacker";
+    case PointType::double_neimark_sacker: return "double_neimark_sacker";
     case PointType::isola_centre: return "isola_centre";
     case PointType::simple_bifurcation: return "simple_bifurcation";
   }

@@ -69,4 +69,12 @@ Vector SingularProblem::right_null() const {
   return padded(scale_.head(count_).cwiseProduct(right_.head(count_)), base().size());
 }
 
+bool SingularProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                                  ComplexVector& values) const {
+  const BasePoint point = split(u, p, regime);
+  if (!base().eigenvalues(point.unknowns, point.parameters, regime, values)) return false;
+  remove_zero(values);
+  return true;
+}
+
 }  // namespace arcslip::continuation

@@ -107,6 +107,8 @@ KINDS = {
     "simple_bifurcation": ("simple bifurcation", "X", 4.0, True),
     "fold_flip": ("fold–flip", "p", 4.2, False),
     "fold_neimark_sacker": ("fold–Neimark–Sacker", "h", 4.2, False),
+    "flip_neimark_sacker": ("flip–Neimark–Sacker", "H", 4.2, False),
+    "double_neimark_sacker": ("double Neimark–Sacker", "^", 4.0, False),
     "neimark_sacker": ("Neimark–Sacker", "h", 3.6, True),
     "period_doubling": ("period doubling", "v", 4.0, False),
     "symmetry_breaking": ("symmetry breaking", "d", 4.2, False),

@@ -7,6 +7,7 @@
 
 #include "arcslip/continuation/curves/cycle_curves.hpp"
 #include "arcslip/continuation/curves/meeting_curves.hpp"
+#include "arcslip/continuation/cycles/orbit_mark.hpp"
 #include "arcslip/continuation/cycles/torus_problem.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/continuation/points/hopf_problem.hpp"
@@ -23,6 +24,13 @@ using continuation::OrbitCurveStart;
 using continuation::OrbitProblem;
 using continuation::TraceOptions;
 
+/// Whether two points of the same kind are so by the same pair, where that is what they are.
+bool has_same_pair(const BasePoint& one, const BasePoint& other) {
+  constexpr double located = 1e-5;
+  return one.extras.size() != other.extras.size() || one.extras.size() == 0 ||
+         std::abs(one.extras(0) - other.extras(0)) <= located * (1 + std::abs(other.extras(0)));
+}
+
 /// Whether a curve is of points of the same kind as another, and passes a point of the base.
 bool is_known(const TracedBranch& curve, const ExtendedProblem& kind, const BasePoint& at) {
   const ExtendedProblem& own = *curve.curve;
@@ -30,10 +38,7 @@ bool is_known(const TracedBranch& curve, const ExtendedProblem& kind, const Base
   return same_kind &&
          std::any_of(curve.branch.points.begin(), curve.branch.points.end(), [&](const BranchPoint& point) {
            const BasePoint here = curve.curve->split(point.unknowns, point.parameters, point.regime);
-           const bool same_pair =
-               kind.size() - kind.base().size() < 2 ||
-               std::abs(here.extras(0) - at.extras(0)) <= 1e-5 * (1 + std::abs(at.extras(0)));
-           return same_pair && same_place(here.parameters, at.parameters) &&
+           return has_same_pair(here, at) && same_place(here.parameters, at.parameters) &&
                   same_place(here.unknowns, at.unknowns);
          });
 }
@@ -88,12 +93,14 @@ bool has_come_to(const TracedBranch& curve, const continuation::OrbitCurveStart&
   const Vector& p = start.point.parameters;
   const double duration = start.orbits->duration(start.point.unknowns, p);
   const double margin = is_small ? near : located;
+  const continuation::OrbitMark begun = mark_of(*start.orbits, start.point, own.active());
   const auto is_there = [&](const BranchPoint& point) {
     const BasePoint at = own.split(point.unknowns, point.parameters, point.regime);
-    if (!(std::abs(orbits->duration(at.unknowns, at.parameters) - duration) < margin * duration))
-      return false;
     if (!((at.parameters - p).array().abs() <= margin * p.array().abs().max(margin)).all()) return false;
-    return !is_small || orbits->apart(at.unknowns, at.regime) < shrunk;
+    if (!is_small)
+      return has_same_pair(at, start.point) && is_same(begun, mark_of(*orbits, at, own.active()));
+    return std::abs(orbits->duration(at.unknowns, at.parameters) - duration) < near * duration &&
+           orbits->apart(at.unknowns, at.regime) < shrunk;
   };
   return std::any_of(curve.branch.points.begin(), curve.branch.points.end(), is_there);
 }

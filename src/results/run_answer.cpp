@@ -99,6 +99,8 @@ std::string plural_of(const Count& count) {
                                 std::pair{"generalized_period_doubling", "generalised period doubling"},
                                 std::pair{"fold_flip", "fold-flip point"},
                                 std::pair{"fold_neimark_sacker", "fold-Neimark-Sacker point"},
+                                std::pair{"flip_neimark_sacker", "flip-Neimark-Sacker point"},
+                                std::pair{"double_neimark_sacker", "double Neimark-Sacker point"},
                                 std::pair{"symmetry_breaking", "breaking of symmetry"}};
   std::string name = count.first;
   std::replace(name.begin(), name.end(), '_', ' ');

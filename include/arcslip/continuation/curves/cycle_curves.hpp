@@ -15,9 +15,8 @@ std::vector<OrbitCurveStart> cycle_curves_from(const std::shared_ptr<const Field
                                                const ExtendedProblem& curve, const BranchPoint& point,
                                                const OrbitOptions& options = {});
 
-/// The curves that meet one of special cycles at a point of codimension two: of folds and period doublings at
-/// a fold-flip point, of folds and Neimark-Sacker points at `fold_neimark_sacker`, of the latter and either
-/// at `resonance_1_1` or `resonance_1_2`, and of folds of the cycles of twice the period, which begins at a
+/// The curves that meet one of special cycles at a point of codimension two: as
+/// `multiplier_curve_meeting` has them, and of folds of the cycles of twice the period, which begins at a
 /// generalised period doubling. None elsewhere.
 std::vector<OrbitCurveStart> cycle_curves_meeting(const ExtendedProblem& curve, const BranchPoint& point);
 

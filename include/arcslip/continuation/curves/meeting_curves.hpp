@@ -17,8 +17,9 @@ namespace arcslip::continuation {
 CurveStart curve_meeting(const ExtendedProblem& curve, const BranchPoint& point);
 
 /// The same of special points of cycles and maps, by the problem on any base and the extras to begin with: of
-/// folds and period doublings at fold-flip points, of folds and Neimark-Sacker points at
-/// `fold_neimark_sacker`, of the latter and either at `resonance_1_1` and `resonance_1_2`. None elsewhere.
+/// folds and period doublings at fold-flip points, of either and Neimark-Sacker points at
+/// `fold_neimark_sacker` and `resonance_1_1`, `flip_neimark_sacker` and `resonance_1_2`, of two pairs at
+/// `double_neimark_sacker`. None elsewhere.
 struct MultiplierCurve {
   std::function<std::unique_ptr<ExtendedProblem>(const Problem& base)> make;
   Vector extras;

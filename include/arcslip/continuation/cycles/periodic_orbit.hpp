@@ -6,6 +6,7 @@
 #include <atomic>
 
 #include "arcslip/continuation/cycles/orbit_problem.hpp"
+#include "arcslip/continuation/points/extended_problem.hpp"
 
 namespace arcslip::continuation {
 
@@ -65,6 +66,9 @@ class PeriodicOrbit : public OrbitProblem {
   static std::atomic<long> made_;
   long number_ = ++made_;  // which of them this is
 };
+
+/// ln(mu) of a cycle or, by its derivatives `at` the point, of a map that is not sparse; else empty.
+ComplexVector log_multipliers(const Problem& problem, const Linearization& at, const BasePoint& point);
 
 /// How many unknowns an orbit has beside T; of another problem all.
 Index count_beside_duration(const Problem& problem);

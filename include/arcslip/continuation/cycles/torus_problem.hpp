@@ -13,7 +13,8 @@ namespace arcslip::continuation {
 /// less z over 1 - z: without T and phase the multiplier 1 of all cycles would be a root as well, and the
 /// curve would cross that of folds, on which kappa = 1. It stays regular where kappa = 1 or -1; beyond these
 /// the pair is real, z and 1/z. Of a map f the matrix is df/du - z. Along a curve points are found
-/// where z is a root of 1, to the fourth, and Chenciner points.
+/// where z is a root of 1, to the fourth, Chenciner points, and those with a multiplier 1, -1 or another pair
+/// of modulus 1 beside.
 class TorusProblem : public PairProblem {
  public:
   /// Of periodic orbits or of a map that is not sparse; `active` becomes an unknown. The base is kept by
@@ -25,15 +26,18 @@ class TorusProblem : public PairProblem {
     return {PointType::resonance_1_1, PointType::resonance_1_2};
   }
   std::vector<PointType> test_types() const override {
-    return {PointType::resonance_1_1, PointType::resonance_1_2, PointType::resonance_1_3,
-            PointType::resonance_1_4, PointType::chenciner};
+    return {PointType::resonance_1_1,      PointType::resonance_1_2, PointType::resonance_1_3,
+            PointType::resonance_1_4,      PointType::chenciner,     PointType::fold_neimark_sacker,
+            PointType::flip_neimark_sacker};
   }
+  PointType pair_crossing() const override { return PointType::double_neimark_sacker; }
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
   /// `angle`: theta, as far as the torus turns with each round.
   std::vector<Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
 
  protected:
+  Complex eigenvalue(const BasePoint& point) const override;
   ByKappa sum(double kappa) const override { return {2 * kappa, 2}; }
   ByKappa product(double /*kappa*/) const override { return {1, 0}; }
   void fill(BorderedSolver& solver, double a, double b, const Vector& scales) const override;

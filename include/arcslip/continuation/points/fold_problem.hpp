@@ -20,8 +20,6 @@ class FoldProblem : public SingularProblem {
 
   std::vector<PointType> test_types() const override;
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
-  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
-                                 ComplexVector& values) const override;
   PointType pair_crossing() const override {
     return base().has_multipliers() ? PointType::fold_neimark_sacker : PointType::zero_hopf;
   }
@@ -36,9 +34,6 @@ class FoldProblem : public SingularProblem {
 
  protected:
   void fill(BorderedSolver& solver) const override;
-
- private:
-  ComplexVector multipliers_at(const BasePoint& point) const;
 };
 
 }  // namespace arcslip::continuation

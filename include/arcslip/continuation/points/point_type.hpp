@@ -37,6 +37,8 @@ enum class PointType {
   generalized_period_doubling,  ///< the same on a curve of period doublings
   fold_flip,                    ///< multipliers 1 and -1
   fold_neimark_sacker,          ///< multipliers 1 and a pair of modulus 1
+  flip_neimark_sacker,          ///< multipliers -1 and a pair of modulus 1
+  double_neimark_sacker,        ///< two pairs of modulus 1
   isola_centre,                 ///< of a curve of folds that turns: a closed branch shrinks to a point
   simple_bifurcation            ///< the same where two branches meet and exchange ends
 };

@@ -17,6 +17,10 @@ class SingularProblem : public ExtendedProblem {
  public:
   [[nodiscard]] bool adapt(const BasePoint& point) override;
 
+  /// Of the base but for the one that vanishes.
+  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                                 ComplexVector& values) const override;
+
   /// v, n, in the problem's units, 0 behind the unknowns of J, at the point last evaluated.
   Vector right_null() const;
 

@@ -1,0 +1,143 @@
+// Curves in two parameters of Neimark-Sacker points, of maps and of cycles, where they meet those of folds,
+// of period doublings and of another pair, all known in closed form.
+
+#include "arcslip/continuation/cycles/doubling_problem.hpp"
+#include "arcslip/continuation/points/fold_problem.hpp"
+#include "cycle_cases.hpp"
+
+namespace {
+
+using namespace arcslip;
+using namespace arcslip::testing;
+using continuation::DoublingProblem;
+using continuation::FoldProblem;
+
+// k = +-sqrt(mu) has a fold at mu = 0; a pair's modulus is 1 where a = 0, another's where d = 0, and a
+// multiplier -1 where b = 0.
+const std::string pair_numbers = R"case(
+[model.parameters]
+mu = 0.04
+q = 0.1
+[model.definitions]
+a = "q - 0.5*k"
+b = "mu + q - 0.12"
+d = "mu + 0.3*q - 0.05"
+)case";
+
+const std::string map_of_pairs = "[model]\nkind = \"map\"\n" + pair_numbers + R"case(
+r = "1 + a - y^2 - z^2"
+s = "1 + d - u^2 - v^2"
+[model.equations]
+k = "k + mu - k^2"
+y = "r*(0.6*y - 0.8*z)"
+z = "r*(0.8*y + 0.6*z)"
+w = "-(1 + b)*w + w^3"
+u = "s*(0.28*u - 0.96*v)"
+v = "s*(0.96*u + 0.28*v)"
+[model.start]
+k = 0.2
+)case";
+
+// Round the circle x = cos t, y = sin t the two of (w1, w2) turn by half a round, and grow as b and -1.
+const std::string field_of_pairs = pair_numbers + R"case(
+[model.equations]
+x = "(1 - x^2 - y^2)*x - y"
+y = "x + (1 - x^2 - y^2)*y"
+k = "mu - k^2"
+z1 = "(a - z1^2 - z2^2)*z1 - 0.31*z2"
+z2 = "0.31*z1 + (a - z1^2 - z2^2)*z2"
+w1 = "-w2/2 + (b - 1)/2*w1 + (b + 1)/2*(x*w1 + y*w2) - w1^3"
+w2 = "w1/2 + (b - 1)/2*w2 + (b + 1)/2*(y*w1 - x*w2) - w2^3"
+v1 = "(d - v1^2 - v2^2)*v1 - 0.43*v2"
+v2 = "0.43*v1 + (d - v1^2 - v2^2)*v2"
+[model.start]
+x = 1
+k = 0.2
+[cycles]
+settle = 100
+)case";
+
+std::string along(const std::string& curve) {
+  return "[branch]\ncurve = \"" + curve +
+         "\"\nswitching = true\nparameters = [\"mu\", \"q\"]\nwindow = [0.1, -0.1]\nfrom = -0.15\nto = "
+         "0.15\n";
+}
+
+// The meetings: of both pairs, where mu = 4 q^2 and mu + 0.3 q = 0.05, k > 0; of the first and -1, where mu =
+// 4 q^2 and mu + q = 0.12; of the second and -1, of either k.
+const double q_of_both = (-0.3 + std::sqrt(0.89)) / 8;
+const double q_of_first = (-1 + std::sqrt(2.92)) / 8;
+
+template <class Special>
+bool is_of(const TracedBranch& curve) {
+  return dynamic_cast<const Special*>(curve.curve.get()) != nullptr;
+}
+
+/// The points of this type on the curve number i, by their place.
+void check_meetings(const TracedBranch& curve, PointType type, const std::vector<double>& expected) {
+  INFO(to_string(type));
+  check_values(values_at(curve, type, "q"), expected, 1e-9);
+}
+
+}  // namespace
+
+TEST_CASE("Curves of Neimark-Sacker points tell what they meet, and are followed from there", "[cycles]") {
+  const auto check = [](const std::string& system, const std::string& fold, const std::string& step) {
+    for (const std::string& curve : {std::string("neimark_sacker"), std::string("period_doubling"), fold}) {
+      INFO(curve << ' ' << step);
+      const auto all = traced_of(system + along(curve), {"continuation.max_step=" + step});
+      int of_first = 0;
+      int of_second = 0;
+      int doublings = 0;
+      int folds = 0;
+      for (const TracedBranch& one : all) {
+        CHECK(one.branch.complete());
+        const BranchPoint start = points(one, PointType::start).front();
+        const double mu = value(one, start, "mu");
+        const double q = value(one, start, "q");
+        if (one.curve->base().observables().front().name == "T" && value(one, start, "T") > 7)
+          continue;  // of cycles that have doubled
+        if (is_of<DoublingProblem>(one)) {
+          ++doublings;
+          check_meetings(one, PointType::fold_flip, {0.12});
+          CHECK(values_at(one, PointType::flip_neimark_sacker, "q").size() == 3);
+        } else if (is_of<FoldProblem>(one)) {
+          ++folds;
+          check_meetings(one, PointType::fold_neimark_sacker, {0});
+          check_meetings(one, PointType::fold_flip, {0.12});
+        } else if (std::abs(mu - 4 * q * q) < 1e-9) {
+          ++of_first;
+          check_meetings(one, PointType::fold_neimark_sacker, {0});
+          check_meetings(one, PointType::double_neimark_sacker, {q_of_both});
+          check_meetings(one, PointType::flip_neimark_sacker, {q_of_first});
+        } else {
+          ++of_second;
+          check_meetings(one, PointType::flip_neimark_sacker, {0.1});
+          CHECK(values_at(one, PointType::fold_neimark_sacker, "q").empty());
+        }
+      }
+      CHECK(of_first == 1);
+      CHECK(of_second == 2);
+      CHECK(doublings == 1);
+      CHECK(folds == 1);
+    }
+  };
+  for (const std::string step : {"0.02", "0.1", "0.3"}) check(map_of_pairs, "fold", step);
+  check(field_of_pairs, "cycle_fold", "0.1");
+}
+
+TEST_CASE("Pairs are told once behind a period doubling in the same step", "[cycles]") {
+  for (const std::string& system : {map_of_pairs, field_of_pairs}) {
+    for (const std::string& range :
+         {std::string("from = -0.2\nto = 0.3\n"), std::string("from = 0.3\nto = -0.2\n")}) {
+      INFO(range);
+      const auto all =
+          traced_of(system + "[branch]\nparameter = \"q\"\n" + range, {"continuation.max_step=1"});
+      REQUIRE(all.size() == 1);
+      auto pairs = values_at(all[0], PointType::neimark_sacker, "q");
+      std::sort(pairs.begin(), pairs.end());
+      check_values(pairs, {1 / 30.0, 0.1}, 1e-9);
+      check_values(values_at(all[0], PointType::period_doubling, "q"), {0.08}, 1e-9);
+    }
+  }
+}
