@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "arcslip/continuation/events/step_search.hpp"
 
 namespace arcslip::continuation {
 namespace {
 
+constexpr double apart = 0.01;  // of the step: two places of it
 constexpr double aside = 1e-3;  // of the step: where the pair of a smaller one must be, too
 
 /// In one step.
@@ -23,14 +25,15 @@ class AxisSearch {
                {.jumps_count = false, .least_touched = step.tolerances.significant * largest_}) {}
 
   void run() {
+    if (step_.is_whole() && pairs_pass_each_other()) return step_.fail();
     const Index count = at_end_.size();
-    Index unstable = unstable_at_start();
     double from = 0;
+    Index unstable = unstable_at_start(from);
     for (Index tries = 0; tries < count; ++tries) {
       Zero next;
       Index crosses = 0;
       for (const Index i : {unstable - 1, unstable}) {
-        if (i < 0 || i >= count || (from == 0 && !may_cross(i, i < unstable ? 1 : -1))) continue;
+        if (i < 0 || i >= count || (tries == 0 && !may_cross(i, i < unstable ? 1 : -1))) continue;
         const Zero zero = cross(i, i < unstable ? 1 : -1, from);
         if (zero.state == Zero::State::failed) return step_.fail();
         if (zero.state == Zero::State::absent || (next.state == Zero::State::found && zero.s >= next.s))
@@ -45,9 +48,29 @@ class AxisSearch {
   }
 
  private:
+  /// Whether one pair comes to the axis and another leaves it apart from that, as their imaginary parts tell:
+  /// the real parts in order need not change their signs then.
+  bool pairs_pass_each_other() const {
+    const Look& here = step_.watch.kept().front();
+    double place[2] = {-1, -1};  // of the last that rises and of the last that falls, in steps
+    for (const Complex& end : at_end_) {
+      if (!(end.imag() > 0)) continue;
+      std::size_t nearest = here.turns.size();
+      for (std::size_t i = 0; i < here.turns.size(); ++i) {
+        const bool is_nearer = nearest == here.turns.size() || std::abs(here.turns[i] - end.imag()) <
+                                                                   std::abs(here.turns[nearest] - end.imag());
+        if (here.turns[i] > 0 && is_nearer) nearest = i;
+      }
+      if (nearest == here.turns.size() || here.rates[nearest] * end.real() >= 0) continue;
+      place[end.real() > 0 ? 0 : 1] = here.rates[nearest] / (here.rates[nearest] - end.real());
+    }
+    return place[0] >= 0 && place[1] >= 0 && std::abs(place[0] - place[1]) > apart;
+  }
+
   /// As was counted, where the step begins on the axis; else the values themselves tell. On a branch point
-  /// one of them vanishes, as well as that is located: which way it goes tells where it is ahead.
-  Index unstable_at_start() {
+  /// one of them vanishes, as well as that is located: which way it goes tells where it is ahead. Where some
+  /// were told to vanish it shows a little ahead, `from` where they are looked for then.
+  Index unstable_at_start(double& from) {
     const Index both = std::min(at_end_.size(), static_cast<Index>(here_.size()));
     double way = 0;
     for (Index i = 0; i < both; ++i)
@@ -70,14 +93,43 @@ class AxisSearch {
         counted += static_cast<Index>(node && node->slope > 0);
       }
     }
-    return std::clamp<Index>(counted, above(near), above(-near));
+    const Index least = above(near);
+    const Index most = above(-near);
+    if (step_.signs.at_crossing && least < most) {
+      if (const std::optional<Index> ahead = unstable_ahead(least, most, from)) return *ahead;
+    }
+    return std::clamp<Index>(counted, least, most);
+  }
+
+  /// How many are unstable just ahead, at `place`, of which those from `least` on, less than `most`, vanish
+  /// here; none where that is not told.
+  std::optional<Index> unstable_ahead(Index least, Index most, double& place) {
+    const double plainly = 10 * step_.tolerances.rough * largest_;
+    for (double ahead = 1e-6; ahead <= aside; ahead *= 10) {
+      const double s = ahead * step_.upper();
+      const auto value = [&](Index k) {
+        return step_.readings.value(step_.readings.real_part(k), s).value_or(0);
+      };
+      bool is_told = (least == 0 || value(least - 1) > 0) && (most == at_end_.size() || value(most) < 0);
+      Index unstable = least;
+      for (Index k = least; k < most; ++k) {
+        unstable += static_cast<Index>(value(k) > 0);
+        is_told = is_told && std::abs(value(k)) > plainly;
+      }
+      if (!is_told) continue;
+      place = s;
+      return unstable;
+    }
+    return std::nullopt;
   }
 
   bool may_cross(Index i, int sign) {
     const auto k = static_cast<std::size_t>(i);
     const double end = step_.at_upper(step_.readings.real_part(i), at_end_(i).real());
     const double rounding = step_.tolerances.on_axis * largest_;
-    if (k < here_.size() && std::abs(here_[k]) <= rounding && std::abs(end) <= rounding) return false;
+    if (k < here_.size() && std::abs(here_[k]) <= rounding && std::abs(end) <= rounding)
+      return std::abs(step_.readings.value(step_.readings.real_part(i), 0.5 * step_.upper()).value_or(0)) >
+             rounding;
     return sign_of(end) != sign || step_.watch.rate_may_vanish(k, step_.chord(), end);
   }
 

@@ -190,6 +190,10 @@ void progress(Archive& archive, Way& way) {
   if (archive.version < 5) return;
   archive(way.fold);
   archive(way.winding);
+  int at_crossing = way.signs.at_crossing ? 1 : 0;
+  archive(at_crossing);
+  if constexpr (Archive::reads) way.signs.at_crossing = at_crossing != 0;
+  for (auto& look : way.looks) list(archive, look.turns, number);
 }
 
 Stop read_stop(const std::string& name) {

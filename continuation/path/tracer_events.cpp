@@ -63,6 +63,9 @@ void Tracer::take_events(const Signs& before) {
   for (const Event& event : events_) {
     event.kind->pass(event, passage);
     if (event.kind->ends_regime || !event.told) continue;
+    const bool of_value =
+        event.type == PointType::peak || event.type == PointType::trough || event.type == PointType::event;
+    state_.signs.at_crossing = state_.signs.at_crossing || !of_value;
     if (event.type == PointType::fold) {
       state_.winding = std::isnan(state_.fold) ? 0 : state_.arclength - state_.fold;
       state_.fold = state_.arclength;
@@ -84,6 +87,7 @@ void Tracer::take_events(const Signs& before) {
         stands_still(problem_, branch_.points, parameter_, options_.tolerances))
       stop(Stop::repeats, "along the branch " + options_.parameter + " does not change but for rounding");
   }
+  if (before.unstable >= 0) state_.signs.unstable = std::max(state_.signs.unstable, 0);
   if (stopped_) return;
   // At a corner an observable may turn, and turn again before the next step ends.
   for (std::size_t i = 0; i < before.observables.size() && is_corner(events_, watch_); ++i) {

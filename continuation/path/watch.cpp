@@ -73,9 +73,12 @@ void Watch::keep(double chord) {
   for (Look& look : kept_) look.behind += chord;
   last.behind = 0;
   last.functions = functions_;
-  last.rates.resize(static_cast<std::size_t>(eigenvalues_.size()));
-  for (Index i = 0; i < eigenvalues_.size(); ++i)
-    last.rates[static_cast<std::size_t>(i)] = eigenvalues_(i).real();
+  last.rates.clear();
+  last.turns.clear();
+  for (const Complex& value : eigenvalues_) {
+    last.rates.push_back(value.real());
+    last.turns.push_back(value.imag());
+  }
   kept_.insert(kept_.begin(), std::move(last));
 }
 
@@ -157,6 +160,7 @@ void update(Signs& signs, const Stepper& stepper, const Watch& watch, bool at_ev
   for (std::size_t i = 0; i < signs.functions.size(); ++i)
     take(signs.functions[i], sign_of(watch.functions()[i]));
   signs.unstable = counted(signs.unstable, stepper, watch);
+  signs.at_crossing = false;
 }
 
 }  // namespace arcslip::continuation

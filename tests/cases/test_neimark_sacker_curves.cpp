@@ -1,6 +1,8 @@
 // Curves in two parameters of Neimark-Sacker points, of maps and of cycles, where they meet those of folds,
 // of period doublings and of another pair, all known in closed form.
 
+#include <fmt/format.h>
+
 #include "arcslip/continuation/cycles/doubling_problem.hpp"
 #include "arcslip/continuation/points/fold_problem.hpp"
 #include "cycle_cases.hpp"
@@ -139,5 +141,52 @@ TEST_CASE("Pairs are told once behind a period doubling in the same step", "[cyc
       check_values(pairs, {1 / 30.0, 0.1}, 1e-9);
       check_values(values_at(all[0], PointType::period_doubling, "q"), {0.08}, 1e-9);
     }
+  }
+}
+
+TEST_CASE("Special points that fall on one place are told beside each other, in long steps and short ones",
+          "[cycles]") {
+  // A real eigenvalue b, a period doubling w and two pairs, each of which passes at its own q, one way or the
+  // other.
+  const auto told = [](const std::string& b, const std::string& w, const std::string& first,
+                       const std::string& second, const std::string& step) {
+    const auto all =
+        traced_of("[model]\nkind = \"map\"\n[model.parameters]\nq = 0\n[model.definitions]\nr = \"1 + " +
+                      first + " - y^2 - z^2\"\ns = \"1 + " + second + R"case( - u^2 - v^2"
+[model.equations]
+b = "(1 + )case" + b + R"case()*b - b^3"
+w = "-(1 + )case" + w +
+                      R"case()*w + w^3"
+y = "r*(0.6*y - 0.8*z)"
+z = "r*(0.8*y + 0.6*z)"
+u = "s*(-0.28*u - 0.96*v)"
+v = "s*(0.96*u - 0.28*v)"
+[branch]
+parameter = "q"
+from = 1
+to = 0
+)case",
+                  {"continuation.max_step=" + step});
+    std::vector<std::string> points;
+    for (const BranchPoint& point : all[0].branch.points) {
+      if (point.type == PointType::branch_point || point.type == PointType::period_doubling ||
+          point.type == PointType::neimark_sacker)
+        points.push_back(fmt::format("{} {:.3g}", to_string(point.type), value(all[0], point, "q")));
+    }
+    std::sort(points.begin(), points.end());
+    return points;
+  };
+  using Names = std::vector<std::string>;
+  for (const std::string step : {"0.02", "0.1", "0.3", "1"}) {
+    INFO(step);
+    CHECK(told("0.3*(q - 0.5)", "2*(q - 0.8)", "2*(q - 0.5)", "-0.3*(q - 0.8)", step) ==
+          Names{"branch_point 0.5", "neimark_sacker 0.5", "neimark_sacker 0.8", "period_doubling 0.8"});
+    CHECK(told("-0.3*(q - 0.2)", "0.3*(q - 2)", "2*(q - 0.5)", "-1*(q - 0.2)", step) ==
+          Names{"branch_point 0.2", "neimark_sacker 0.2", "neimark_sacker 0.5"});
+    CHECK(told("-1*(q - 0.8)", "0.3*(q - 2)", "0.3*(q - 0.8)", "-1*(q - 0.7)", step) ==
+          Names{"branch_point 0.8", "neimark_sacker 0.7", "neimark_sacker 0.8"});
+    // One pair comes to the axis where another has just left it.
+    CHECK(told("0.3*(q - 0.5)", "-0.3*(q - 0.4)", "-1*(q - 0.2)", "2*(q - 0.1)", step) ==
+          Names{"branch_point 0.5", "neimark_sacker 0.1", "neimark_sacker 0.2", "period_doubling 0.4"});
   }
 }

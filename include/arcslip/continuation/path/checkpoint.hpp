@@ -39,6 +39,7 @@ struct Look {
   double behind = 0;              ///< its distance
   std::vector<double> functions;  ///< tests of the problem, then the user's events
   std::vector<double> rates;      ///< real parts of the eigenvalues, descending
+  std::vector<double> turns;      ///< imaginary parts of the same
 };
 
 constexpr std::size_t most_past = 3;  ///< points before this one that are remembered
@@ -50,6 +51,7 @@ struct Signs {
   std::vector<int> observables;  ///< of the derivatives of those tracked
   std::vector<int> functions;    ///< of the tests of the problem, then of the user's events
   int unstable = -1;             ///< eigenvalues with a positive real part; -1 without eigenvalues
+  bool at_crossing = false;      ///< here some of them were told to vanish
 };
 
 /// One way along a branch, as far as it was gone.
