@@ -205,6 +205,7 @@ std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, dou
   double same = omega;
   ComplexVector p = vector_at(*matrix, a, -1, same, pairs);
   if (q.size() == 0 || p.size() == 0) return std::nullopt;
+  const double apart = std::abs(p.dot(q)) / p.cwiseAbs().dot(q.cwiseAbs());
   p /= std::conj(p.dot(q));  // p^H q = 1
 
   const Vector real = q.real();
@@ -233,7 +234,8 @@ std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, dou
   const Complex by_mean = p.dot(second(1, mean));
   const Complex by_second = p.dot(second(-1, higher));
   const double terms = std::abs(cubic) + 2 * std::abs(by_mean) + std::abs(by_second);
-  return HopfForm{omega, 0.5 * (cubic - 2.0 * by_mean + by_second).real() / omega, 0.5 * terms / omega};
+  return HopfForm{omega, 0.5 * (cubic - 2.0 * by_mean + by_second).real() / omega, 0.5 * terms / omega, pairs,
+                  apart};
 }
 
 }  // namespace arcslip::continuation

@@ -62,10 +62,11 @@ void HopfProblem::test(const Vector& u, const Vector& p, const Regime& regime, V
   values << kappa, std::nan("");
   ComplexVector all;
   if (!base().eigenvalues(point.unknowns, point.parameters, regime, all)) return;
-  constexpr double surely = 1e-6;  // so near to where the pair meets at 0 its vectors are rounding
-  if (!(kappa > surely * all.cwiseAbs2().maxCoeff())) return;
+  constexpr double rounding = 1e-14;  // of kappa
+  constexpr double surely = 1e-3;     // so near to where the pair meets at 0 its vectors are rounding
+  if (!(kappa > rounding * all.cwiseAbs2().maxCoeff())) return;
   const auto form = hopf_form(base(), {point.unknowns, point.parameters, regime}, std::sqrt(kappa));
-  if (!form) return;
+  if (!form || form->apart < surely) return;
   Vector scale(count_);
   Vector parameter_scale(point.parameters.size());
   base().scale(point.unknowns, point.parameters, scale, parameter_scale);

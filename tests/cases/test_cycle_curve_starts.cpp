@@ -47,6 +47,28 @@ Names kinds(const std::vector<TracedBranch>& all) {
   return names;
 }
 
+/// H. R. Wilson, J. D. Cowan, Biophys. J. 12 (1972) 1: with (p, q, x, y) so is (-p, -8 - q, 1 - x, 1 - y).
+std::vector<TracedBranch> of_two_populations() {
+  return traced_of(R"case([model.parameters]
+p = -2
+q = -6
+a = 10
+b = 10
+c = 10
+d = -2
+[model.equations]
+x = "-x + 1/(1+exp(-(p + a*x - b*y)))"
+y = "-y + 1/(1+exp(-(q + c*x + d*y)))"
+[branch]
+curve = "hopf"
+parameters = ["p", "q"]
+window = [-6, 6]
+from = -12
+to = 4
+switching = true
+)case");
+}
+
 }  // namespace
 
 TEST_CASE("Folds of cycles are followed from generalised Hopf points", "[cycles]") {
@@ -239,4 +261,26 @@ to = 0.2
   }
   CHECK_THAT(least, WithinAbs(-std::sqrt(0.1) / 2, 1e-9));
   CHECK_THAT(largest, WithinAbs(std::sqrt(0.1) / 2, 1e-9));
+}
+
+TEST_CASE("Generalised Hopf points are told beside what decays far faster", "[cycles]") {
+  // r' = (mu + b s - s^2) r, s = r^2: folds at mu = -b^2/4
+  const auto curves = from_hopf_points(
+      R"case(
+x = "(mu + b*s - s^2)*x - y"
+y = "x + (mu + b*s - s^2)*y"
+z = "1e5*(x - z)"
+[model.definitions]
+s = "x^2 + y^2"
+)case",
+      "mu = -1\nb = -0.2\n", "parameters = [\"mu\", \"b\"]\nwindow = [-1, 1]\nfrom = -0.5\nto = 0.5\n");
+  REQUIRE(kinds(curves) == Names{"folds"});
+  check_curve(
+      curves[0], "mu",
+      [&](const BranchPoint& point) { return -std::pow(value(curves[0], point, "b"), 2) / 4; }, 1e-8);
+}
+
+TEST_CASE("No generalised Hopf point is told on a Bogdanov-Takens point", "[cycles]") {
+  const auto found = all_values_at(of_two_populations(), PointType::generalized_hopf, "q");
+  check_values(found, {-7.58350585, -8 + 7.58350585}, 1e-8);
 }

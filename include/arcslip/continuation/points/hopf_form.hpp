@@ -23,6 +23,7 @@ struct HopfForm {
   double lyapunov = 0;  ///< l_1; nan of several pairs
   double terms = 0;     ///< the sum of the sizes of its three terms
   int pairs = 1;        ///< how many are at +-j omega
+  double apart = 1;     ///< |p^H q| over the sum of its terms' sizes: 0 where the pair has one vector alone
 };
 
 /// At a Hopf point of an equilibrium, of the pair of eigenvalues nearest to +-j omega or, where that is
