@@ -68,7 +68,7 @@ Branch follow_curve(ExtendedProblem& problem, const TraceOptions& options, const
   if (of == nullptr)
     return follow_borders(problem, observer, [&](const Observer& follow) { return trace(own, follow); });
   MeshWatch meshes(*of, orbits, &problem);
-  GrowthWatch growth(*of, options.parameter, orbits.tolerance, true);
+  GrowthWatch growth(*of, options.parameter, orbits.tolerance, &problem);
   bool told = false;
   bool worn = false;
   bool grows = false;

@@ -50,7 +50,7 @@ Branch one_way(const OrbitProblem& problem, TraceOptions options, const OrbitOpt
   options.journal = nullptr;  // which has no meshes: the same work is done anew
   end_with_kind(problem, options);
   MeshWatch meshes(problem, orbits);
-  GrowthWatch growth(problem, options.parameter, orbits.tolerance, false);
+  GrowthWatch growth(problem, options.parameter, orbits.tolerance);
   bool worn = false;
   bool told = false;
   bool grows = false;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/continuation/points/fold_problem.hpp"
+
 namespace arcslip::continuation {
 namespace {
 
@@ -13,11 +15,20 @@ constexpr double grown = 1.05;
 }  // namespace
 
 GrowthWatch::GrowthWatch(const OrbitProblem& orbits, const std::string& parameter, double tolerance,
-                         bool is_curve)
+                         const ExtendedProblem* curve)
     : orbits_(orbits),
       parameter_(parameter),
       nearly_(std::min(1e-8, 0.01 * tolerance)),
-      is_curve_(is_curve) {}
+      is_curve_(curve != nullptr),
+      of_folds_(dynamic_cast<const FoldProblem*>(curve) != nullptr),
+      surely_(std::sqrt(tolerance)) {}
+
+/// Whether the multiplier of a fold is no longer 1.
+bool GrowthWatch::is_hidden(const BasePoint& at) const {
+  if (!of_folds_) return false;
+  const ComplexVector logs = orbits_.log_multipliers(at.unknowns, at.parameters, at.regime);
+  return logs.size() > 0 && logs.cwiseAbs().minCoeff() > surely_;
+}
 
 bool GrowthWatch::goes_on(const BasePoint& at) {
   constexpr double hardly = 0.01;
@@ -44,13 +55,14 @@ bool GrowthWatch::goes_on(const BasePoint& at) {
     crept_for_ = 0;
   }
   const bool stands = is_curve_ ? ++crept_for_ >= 2 * many : ++points_ >= many;
-  return (period < grown * period_ && !stands) ||
+  hidden_ = is_hidden(at);
+  return (period < grown * period_ && !stands && !hidden_) ||
          orbits_.least_speed(at.unknowns, at.parameters, at.regime) > rest;
 }
 
 void GrowthWatch::end(Branch& branch) const {
   branch.checkpoint.reset();
-  if (is_curve_ && last_period_ < grown * period_) {
+  if (is_curve_ && (hidden_ || last_period_ < grown * period_)) {
     branch.stop = Stop::no_value;
     branch.explanation = fmt::format(
         "the orbits all but rest on their way, where rounding and meshes hide how the curve goes on: the "

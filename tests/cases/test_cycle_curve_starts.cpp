@@ -284,3 +284,12 @@ TEST_CASE("No generalised Hopf point is told on a Bogdanov-Takens point", "[cycl
   const auto found = all_values_at(of_two_populations(), PointType::generalized_hopf, "q");
   check_values(found, {-7.58350585, -8 + 7.58350585}, 1e-8);
 }
+
+TEST_CASE("Folds of cycles end where an orbit that comes near an equilibrium hides them", "[cycles]") {
+  const auto folds = of_cycles(of_two_populations());
+  REQUIRE(kinds(folds) == Names{"folds", "folds"});
+  for (const TracedBranch& one : folds) {
+    CHECK(one.branch.stop == Stop::no_value);
+    CHECK(points(one, PointType::cusp).empty());
+  }
+}

@@ -13,11 +13,14 @@ namespace arcslip::continuation {
 
 /// Tells where the period grows while the parameter no longer changes, and the orbit all but rests on its
 /// way. Relaxation oscillations grow as fast, without rest. Special orbits, which know their parameters less
-/// well than others the nearer they come, may creep before they are there.
+/// well than others the nearer they come, may creep before they are there; and folds may no longer be any, as
+/// what errors there are in the orbit's own multiplier 1 hides the second one.
 class GrowthWatch {
  public:
-  /// Of a branch, or a curve, over this parameter, of orbits with errors of this size. Kept by reference.
-  GrowthWatch(const OrbitProblem& orbits, const std::string& parameter, double tolerance, bool is_curve);
+  /// Of a branch, or of this curve, over this parameter, of orbits with errors of this size. Kept by
+  /// reference.
+  GrowthWatch(const OrbitProblem& orbits, const std::string& parameter, double tolerance,
+              const ExtendedProblem* curve = nullptr);
 
   /// Looks at the next orbit.
   bool goes_on(const BasePoint& at);
@@ -26,6 +29,8 @@ class GrowthWatch {
   void end(Branch& branch) const;
 
  private:
+  bool is_hidden(const BasePoint& at) const;
+
   const OrbitProblem& orbits_;
   const std::string& parameter_;
   double nearly_;  // of the parameter: its distance from its limit falls with e^-T until meshes hide it
@@ -34,6 +39,9 @@ class GrowthWatch {
   double last_period_ = 0;
   int points_ = 0;  // since then
   bool is_curve_;
+  bool of_folds_;
+  double surely_;  // how far ln of the multiplier of a fold may be from 0
+  bool hidden_ = false;
   double crept_ = 0;  // a period, and a value, from which the last ones hardly differ
   double crept_to_ = 0;
   int crept_for_ = 0;  // points
