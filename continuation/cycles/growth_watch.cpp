@@ -30,7 +30,18 @@ bool GrowthWatch::is_hidden(const BasePoint& at) const {
   return logs.size() > 0 && logs.cwiseAbs().minCoeff() > surely_;
 }
 
-bool GrowthWatch::goes_on(const BasePoint& at) {
+/// Whether the folds come to lie at two values while their periods grow.
+bool GrowthWatch::snakes(const Fold& last, double same) {
+  constexpr double apart = 1e3;  // times what is the same: of two values
+  std::rotate(folds_.begin(), folds_.end() - 1, folds_.end());
+  folds_[0] = last;
+  const auto is_as = [&](std::size_t i) {
+    return std::abs(folds_[i].value - folds_[i + 2].value) <= same && folds_[i].period > folds_[i + 2].period;
+  };
+  return is_as(0) && is_as(1) && std::abs(folds_[0].value - folds_[1].value) > apart * same;
+}
+
+bool GrowthWatch::goes_on(const BasePoint& at, bool is_fold) {
   constexpr double hardly = 0.01;
   constexpr int many = 30;       // points: where rounding hides how an orbit goes on
   constexpr double rest = 1e-2;  // of the mean speed: that from an equilibrium falls with e^(-T/2) at least
@@ -43,6 +54,8 @@ bool GrowthWatch::goes_on(const BasePoint& at) {
   const double period = orbits_.duration(at.unknowns, at.parameters);
   const double same = nearly_ * scale(parameter);
   last_period_ = period;
+  snakes_ = is_fold && snakes({value, period}, same);
+  if (snakes_) return false;
   if (!(std::abs(value - value_) <= same) || period < period_) {
     value_ = value;
     period_ = period;
@@ -71,10 +84,18 @@ void GrowthWatch::end(Branch& branch) const {
     return;
   }
   branch.stop = Stop::infinite_period;
+  const int digits = static_cast<int>(std::ceil(-std::log10(nearly_)));
+  if (snakes_) {
+    branch.explanation = fmt::format(
+        "the period grows without bound, past {:.6g}, as orbits go round another one ever longer on "
+        "their way: they turn back at {} = {:.{}g} and {:.{}g}",
+        last_period_, parameter_, folds_[1].value, digits, folds_[0].value, digits);
+    return;
+  }
   branch.explanation = fmt::format(
       "the period grows without bound, past {:.6g}: an orbit that begins and ends on an equilibrium lies at "
       "{} = {:.{}g}",
-      last_period_, parameter_, value_, static_cast<int>(std::ceil(-std::log10(nearly_))));
+      last_period_, parameter_, value_, digits);
 }
 
 }  // namespace arcslip::continuation

@@ -178,3 +178,35 @@ switching = true
     check_values(values_at(all[0], PointType::fold, "a"), {a}, 1e-8);
   }
 }
+
+TEST_CASE("Cycles that go round another one ever longer end between two values", "[cycles]") {
+  // J. L. Hindmarsh, R. M. Rose, Proc. R. Soc. Lond. B 221 (1984) 87
+  const auto all = cycles_of(traced_of(R"case([model.parameters]
+I = 5.45
+[model.equations]
+x = "y - x^3 + 3*x^2 + I - z"
+y = "1 - 5*x^2 - y"
+z = "0.01*(4*(x + 1.6) - z)"
+[model.start]
+x = 0
+y = 1
+z = 6.4
+[model.scale]
+I = 1e3
+[branch]
+parameter = "I"
+from = 5.2
+to = 5.5
+start = 5.45
+switching = true
+[cycles]
+doublings = 0
+)case"));
+  REQUIRE(all.size() == 1);
+  const continuation::Branch& branch = all[0].branch;
+  CHECK(branch.stop == Stop::infinite_period);
+  CHECK(branch.explanation.find("turn back at I = 5.2586") != std::string::npos);
+  const auto folds = values_at(all[0], PointType::fold, "I");
+  REQUIRE(folds.size() >= 4);
+  CHECK_THAT(folds.end()[-1] + folds.end()[-2], WithinAbs(5.2586262 + 5.2858987, 1e-4));
+}
