@@ -60,6 +60,23 @@ bool MeshWatch::agrees(const CurvePoint& point, const Signs& signs) const {
          (eigenvalues.real().array() > 0).count() == signs.unstable;
 }
 
+/// Where both frames have multipliers far from -1 and differ in how many are below it, one of them errs: what
+/// grows by decades within an interval has no sign there, and no period doubling lies in between.
+void MeshWatch::take_far_signs(const CurvePoint& before, const CurvePoint& after, Signs& signs) const {
+  constexpr double far = 0.5;  // of 1, which it is where all are far smaller or larger than 1
+  if (curve_ != nullptr) return;
+  const std::vector<PointType> types = orbits_.test_types();
+  Vector old(std::ssize(types));
+  Vector now(std::ssize(types));
+  orbits_.test(before.unknowns, before.parameters, before.regime, old);
+  orbits_.test(after.unknowns, after.parameters, after.regime, now);
+  for (Index i = 0; i < now.size(); ++i) {
+    const auto which = static_cast<std::size_t>(i);
+    if (types[which] == PointType::period_doubling && std::min(std::abs(old(i)), std::abs(now(i))) > far)
+      signs.functions[which] = sign_of(now(i));
+  }
+}
+
 /// Whether a new frame can wait for one more point: signs that are all rounding would put it off for ever.
 bool MeshWatch::can_wait() {
   constexpr int most = 3;
@@ -101,6 +118,7 @@ bool MeshWatch::renew(Branch& branch, const TraceOptions& options) {
   if (!carry(carrier, *regime, corrector, here)) return false;
   if (curve_ != nullptr) progress.rescaled = 1;
   if (!agrees(here, progress.signs) && can_wait()) return adapt(progress.here);
+  take_far_signs(progress.here, here, progress.signs);
   if (!start_) start_ = progress.start;
   progress.here = here;
   progress.bend = bend.cwiseQuotient(progress.here.scale);

@@ -179,6 +179,29 @@ switching = true
   }
 }
 
+TEST_CASE("Canards of a stiff reaction double no period where meshes differ in signs", "[cycles]") {
+  // the Oregonator: fold by degree 7 and a tolerance of 1e-10
+  const auto all = cycles_of(traced_of(R"case([model.parameters]
+f = 0.3
+[model.equations]
+x = "(8e-4*y - x*y + x*(1 - x))/0.04"
+y = "(-8e-4*y - x*y + f*z)/4e-4"
+z = "x - z"
+[model.start]
+x = 0.7
+y = 0.3
+z = 0.7
+[branch]
+parameter = "f"
+from = 0.3
+to = 0.6
+switching = true
+)case"));
+  REQUIRE(all.size() == 1);
+  check_values(values_at(all[0], PointType::fold, "f"), {0.512644491}, 1e-8);
+  CHECK(points(all[0], PointType::period_doubling).empty());
+}
+
 TEST_CASE("Cycles that go round another one ever longer end between two values", "[cycles]") {
   // J. L. Hindmarsh, R. M. Rose, Proc. R. Soc. Lond. B 221 (1984) 87
   const auto all = cycles_of(traced_of(R"case([model.parameters]

@@ -42,6 +42,7 @@ class MeshWatch {
   BasePoint of_orbits(const CurvePoint& point) const;
   std::optional<Regime> renewed(const BasePoint& at) const;
   bool agrees(const CurvePoint& point, const Signs& signs) const;
+  void take_far_signs(const CurvePoint& before, const CurvePoint& after, Signs& signs) const;
   [[nodiscard]] bool adapt(const CurvePoint& point);
   bool carry(const Carrier& carrier, const Regime& regime, Corrector& corrector, CurvePoint& point);
   bool can_wait();
