@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "arcslip/continuation/problem/evaluation.hpp"
+
 namespace arcslip::continuation {
 namespace {
 
@@ -35,6 +37,7 @@ Solution DeflatedNewton::run(const Guess& guess, const std::vector<Guess>& known
   double last = std::numeric_limits<double>::infinity();
   Solution solution{Correction::too_many_iterations, guess.unknowns, 0, last, 0};
   while (true) {
+    if (options_.watch) options_.watch();
     if (!at_.evaluate(solution.unknowns, guess.parameters, guess.regime))
       return ended(solution, Correction::cannot_evaluate);
     solution.residual = at_.residual().lpNorm<Eigen::Infinity>();
@@ -84,9 +87,31 @@ bool DeflatedNewton::correct(Solution& solution, const Guess& guess, const std::
     stretch *= options_.max_correction / solution.correction;
     solution.correction = options_.max_correction;
   }
+  if (options_.damped && solution.correction > converges) {
+    stretch = part_of_correction(solution.unknowns, guess, stretch);
+    if (stretch == 0) return false;
+  }
   solution.unknowns += stretch * scale_.cwiseProduct(correction_.head(n));
   ++solution.iterations;
   return true;
+}
+
+/// The largest of `whole` and its halves after which the next correction is shorter, 0 if there is none.
+double DeflatedNewton::part_of_correction(const Vector& u, const Guess& guess, double whole) {
+  constexpr double least = 1e-4;
+  const Index n = problem_.size();
+  const double length = correction_.head(n).norm();
+  Vector residual(n);
+  Vector next(n + 1);
+  for (double part = whole; part > least * whole; part *= 0.5) {
+    if (!evaluate(problem_, u + part * scale_.cwiseProduct(correction_.head(n)), guess.parameters,
+                  guess.regime, {.residual = &residual}))
+      continue;
+    next << -residual, 0;
+    solver_->solve(next);
+    if (next.head(n).norm() <= (1 - 0.25 * part) * length) return part;
+  }
+  return 0;
 }
 
 Solution solve(const Problem& problem, const Guess& guess, const NewtonOptions& options) {

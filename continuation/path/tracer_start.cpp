@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/path/tracer.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 #include "arcslip/continuation/problem/evaluation.hpp"
@@ -34,6 +35,8 @@ void Tracer::start(const Guess& guess, double forward) {
                                            : result != Correction::cannot_evaluate;
   };
   if (is_free && may_be_singular() && start_singular(guess, forward) == Correction::converged)
+    result = Correction::converged;
+  if (is_free && result != Correction::converged && start_from_afar(guess, forward))
     result = Correction::converged;
   if (result != Correction::converged) {
     look_at_derivatives(guess.unknowns, guess.parameters, guess.regime);
@@ -106,6 +109,21 @@ void Tracer::set_signs_of_zeros(bool is_ahead, bool is_only) {
     }
   }
   watch_.look(stepper_.here());
+}
+
+/// From a guess so far off that corrections have to be shortened: whether they lead to a solution.
+bool Tracer::start_from_afar(const Guess& guess, double forward) {
+  NewtonOptions damped;
+  damped.max_iterations = 100;
+  damped.damped = true;
+  damped.watch = corrector_.options().watch;
+  const Solution found = solve(problem_, guess, damped);
+  Work& work = corrector_.work();
+  work.evaluations += found.iterations + 1;
+  work.factorizations += found.iterations;
+  work.iterations += found.iterations;
+  return found.outcome == Correction::converged &&
+         stepper_.start(found.unknowns, guess.parameters, guess.regime, forward) == Correction::converged;
 }
 
 /// A start on a fold or on a branch point, where the parameter does not determine the solution.

@@ -167,3 +167,16 @@ TEST_CASE("A residual that turns nan ends the branch at the last good point") {
   CHECK_THAT(branch.points.back().unknowns(0), WithinAbs(0.7, 1e-8));
   for (const BranchPoint& point : branch.points) CHECK(point.residual <= 1e-9);
 }
+
+TEST_CASE("A start is found from a guess from which whole corrections lead away") {
+  const ScalarProblem problem =
+      graph([](double x) { return std::atan(x); }, [](double x) { return 1 / (1 + x * x); });
+  const double far = GENERATE(1.4, 3.0, 30.0);
+  CAPTURE(far);
+  const Branch branch = trace(problem, {vector_of({far}), vector_of({0})}, over("p", 0, 1));
+  CHECK(branch.stop == Stop::reached_end);
+  CHECK_THAT(branch.points.front().unknowns(0), WithinAbs(0, 1e-10));
+  const Branch none = trace(problem, {vector_of({far}), vector_of({2})}, over("p", 2, 1));
+  CHECK(none.stop == Stop::no_start);
+  CHECK(none.points.empty());
+}

@@ -10,6 +10,7 @@
 #include "catch.hpp"
 #include "mistakes.hpp"
 #include "places.hpp"
+#include "scalar_problem.hpp"
 
 using namespace arcslip;
 using namespace arcslip::testing;
@@ -66,6 +67,81 @@ std::vector<BranchPoint> found(const std::vector<TracedBranch>& all, PointType t
 std::string error_in(const std::string& text, const std::vector<std::string>& settings = {}) {
   return error_of([&] { plan_of(text, settings); });
 }
+
+/// A guess from which plain corrections grow, with the solution.
+struct Far {
+  const char* name;
+  const char* model;
+  const char* parameter;
+  double from;
+  Vector solution;
+};
+const std::vector<Far> far_ones = {
+    // -x^3 + 3 x + k x = lam of Koper's three variables
+    Far{"koper", R"case(
+[model.parameters]
+lam = 12
+[model.equations]
+x = "10*(-10*y - x^3 + 3*x - lam)"
+y = "x - 2*y + z"
+z = "y - z"
+[model.start]
+x = 2
+y = 1
+z = 1
+)case",
+        "lam", 12, vector_of({-1.357171955, -1.357171955, -1.357171955})},
+    // the stirred tank reactor of Uppal, Ray and Poore: 3 y = 14 x, where x = 0.06 (1 - x) exp(y)
+    Far{"reactor", R"case(
+[model.parameters]
+Da = 0.06
+[model.equations]
+x = "-x + Da*(1 - x)*exp(y)"
+y = "-3*y + 14*Da*(1 - x)*exp(y)"
+[model.start]
+x = 5
+y = 12
+)case",
+        "Da", 0.06, vector_of({0.080255001, 0.374523338})},
+    // the rest of Hodgkin and Huxley's nerve
+    Far{"nerve", R"case(
+[model.parameters]
+I = 0
+[model.equations]
+V = "I - 120*m^3*h*(V - 115) - 36*n^4*(V + 12) - 0.3*(V - 10.6)"
+m = "0.1*(25 - V)/(exp((25 - V)/10) - 1)*(1 - m) - 4*exp(-V/18)*m"
+h = "0.07*exp(-V/20)*(1 - h) - h/(exp((30 - V)/10) + 1)"
+n = "0.01*(10 - V)/(exp((10 - V)/10) - 1)*(1 - n) - 0.125*exp(-V/80)*n"
+[model.start]
+V = 60
+m = 0.5
+h = 0.5
+n = 0.5
+)case",
+        "I", 0, vector_of({0.000277566265, 0.0529342176, 0.596111046, 0.317681168})},
+    // Powell's badly scaled function, from where Moré, Garbow and Hillstrom 1981 have it begin
+    Far{"powell", R"case(
+[model]
+kind = "algebraic"
+[model.parameters]
+a = 1.0001
+[model.equations]
+x = "1e4*x*y - 1"
+y = "exp(-x) + exp(-y) - a"
+[model.start]
+y = 1
+)case",
+        "a", 1.0001, vector_of({1.098159e-5, 9.106146})},
+    // whose first correction leads to where it has no value
+    Far{"logarithm", R"case(
+[model.parameters]
+a = 0
+[model.equations]
+x = "log(x) - a"
+[model.start]
+x = 20
+)case",
+        "a", 0, vector_of({1})}};
 
 }  // namespace
 
@@ -293,4 +369,28 @@ TEST_CASE("A guess that has no value is why a branch of formulas has no start") 
   REQUIRE(all.size() == 1);
   CHECK(all[0].branch.stop == continuation::Stop::no_start);
   CHECK(all[0].branch.explanation.find("no value") != std::string::npos);
+}
+
+TEST_CASE("A branch begins from guesses from which Newton's method by itself runs away") {
+  for (const Far& far : far_ones) {
+    INFO(far.name);
+    const std::vector<TracedBranch> all =
+        all_traced(plan_of(far.model + fmt::format("[branch]\nparameter = \"{}\"\nfrom = {}\nto = {}\n",
+                                                   far.parameter, far.from, far.from + 0.01)));
+    REQUIRE(all.size() == 1);
+    const continuation::Branch& branch = all[0].branch;
+    REQUIRE(branch.stop == continuation::Stop::reached_end);
+    CHECK((branch.points.front().unknowns - far.solution).cwiseAbs().maxCoeff() < 1e-6);
+  }
+}
+
+TEST_CASE("Where there is no solution a far guess says so") {
+  const auto [first, second] = GENERATE(std::pair("exp(x) + A", "-y"), std::pair("A + x^2 + y^2", "y - x"));
+  const std::string text =
+      replaced(replaced(brusselator, "A - (B + 1)*x + x^2*y", first), "B*x - x^2*y", second);
+  const std::vector<TracedBranch> all = all_traced(plan_of(text, {"model.start.x=3"}));
+  REQUIRE(all.size() == 1);
+  CHECK(all[0].branch.stop == continuation::Stop::no_start);
+  CHECK(all[0].branch.explanation ==
+        "no solution was found from the guess at B = 1: Newton's method diverges");
 }

@@ -26,6 +26,7 @@ class DeflatedNewton {
  private:
   double level(const Vector& u);
   bool correct(Solution& solution, const Guess& guess, const std::vector<Guess>& known);
+  double part_of_correction(const Vector& u, const Guess& guess, double whole);
 
   const Problem& problem_;
   NewtonOptions options_;

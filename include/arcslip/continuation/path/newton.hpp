@@ -2,6 +2,8 @@
 
 // A solution of F(u, p) = 0 at fixed parameters.
 
+#include <functional>
+
 #include "arcslip/continuation/path/corrector.hpp"
 #include "arcslip/continuation/path/trace.hpp"
 
@@ -21,6 +23,10 @@ struct NewtonOptions {
   double tolerance = 1e-10;   ///< on the largest entry of F; iterations go on to rounding
   int max_iterations = 30;    ///< before it is given up
   double max_correction = 0;  ///< longest correction in the problem's scale, 0 for no limit
+  /// Whether a correction is halved until the next one, by the same Jacobian, is shorter than it, which leads
+  /// from farther off [P. Deuflhard, Newton methods for nonlinear problems, Springer 2004, 3.3].
+  bool damped = false;
+  std::function<void()> watch = {};  ///< called before each correction; what it throws ends the work
 };
 
 /// Newton's method from a guess, with the full exact Jacobian.

@@ -46,6 +46,7 @@ class Tracer {
   BranchIdentity identity() const;
   void require_same(const Progress& progress) const;
   Correction start_singular(const Guess& guess, double forward);
+  bool start_from_afar(const Guess& guess, double forward);
   void set_signs_of_zeros(bool is_ahead, bool is_only);
   bool out_of_time() const;
   void watch_clock() const;
