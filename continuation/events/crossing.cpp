@@ -76,8 +76,8 @@ bool CrossingSearch::search() {
   log_here_ = step_.here.log_determinant + std::log(step_.normal.dot(step_.here.tangent));
   log_there_ = corrector_.log_determinant();
   unit_ = std::max(log_here_, log_there_);
-  from_zero_ = std::isinf(log_here_) ? multiplicity_at_start() : 0;
   step_.anchors.clear();
+  from_zero_ = std::isinf(log_here_) ? multiplicity_at_start() : 0;
   const auto at = [this](double s) { return determinant_at(s); };
   const std::optional<Node> from = at(0);
   const std::optional<Node> to = at(step_.distance);
@@ -92,13 +92,31 @@ bool CrossingSearch::search() {
   return is_near && locate(found.before, found.before);
 }
 
+/// How far from the start the determinant is as it begins and yet no rounding, as the parameter's change.
+double CrossingSearch::way_from_start() const {
+  constexpr double least = 1e-7;  // of the step
+  constexpr double most = 0.01;
+  constexpr double told = 1e-13;  // of the parameter's scale: 10^3 of its roundings
+  const double rate = std::abs(step_.parameter_rate_from());
+  const double bend = std::abs(step_.parameter_rate_to() - step_.parameter_rate_from()) / step_.distance;
+  const double way = 2 * told / (rate + std::sqrt(rate * rate + 2 * bend * told));
+  return std::clamp(way, least * step_.distance, most * step_.distance);
+}
+
+/// Factors the problem a little way from the start on the curve through the step: where several eigenvalues
+/// vanish at once, how the branch bends tells the determinant.
+bool CrossingSearch::linearise_behind_start(double way) {
+  step_.interpolate(way, work_);
+  work_ /= way;
+  return prober_.linearise_beside(step_.here, work_, way) != Correction::cannot_evaluate;
+}
+
 /// By how the determinant begins.
 int CrossingSearch::multiplicity_at_start() {
-  const double offset = prober_.offset_beside(0);
+  const double way = way_from_start();
   std::array<double, 2> logs{};
   for (std::size_t i = 0; i < 2; ++i) {
-    const double way = offset * static_cast<double>(i + 1);
-    if (prober_.linearise_beside(step_.here, step_.slope_from, way) == Correction::cannot_evaluate) return 1;
+    if (!linearise_behind_start(way * static_cast<double>(i + 1))) return 1;
     logs[i] = corrector_.log_determinant();
   }
   const double order = (logs[1] - logs[0]) / std::log(2.0);
@@ -108,6 +126,12 @@ int CrossingSearch::multiplicity_at_start() {
 /// The determinant in its unit; in a step that starts on a branch point it is divided by s to its power.
 std::optional<Node> CrossingSearch::determinant_at(double s) {
   const auto sized = [this](double sign, double log) { return sign * std::exp(log - unit_); };
+  if (s == 0 && from_zero_ > 1) {
+    const double way = way_from_start();
+    if (!linearise_behind_start(way)) return std::nullopt;
+    const double value = sized(corrector_.orientation(), corrector_.log_determinant());
+    return Node{0, value / std::pow(way, from_zero_), std::nan("")};
+  }
   const bool inside = s > 0 && s < step_.distance;
   if (inside && !probe_between(s)) return std::nullopt;
   const CurvePoint& point = inside ? prober_.probed().point : s > 0 ? step_.there : step_.here;

@@ -59,6 +59,41 @@ class SparseCells : public EqualCells {
   }
 };
 
+/// Modes X and Y, (u, v) turned by an angle, of two eigenvalues that vanish at p = 0:
+/// X' = p X - X (X^2 + a Y^2), Y' = p Y - Y (Y^2 + b X^2).
+class TwoModes : public Problem {
+ public:
+  TwoModes(double a, double b, double angle)
+      : a_(a), b_(b), turn_{{std::cos(angle), std::sin(angle)}, {-std::sin(angle), std::cos(angle)}} {}
+  Index size() const override { return 2; }
+  std::vector<std::string> parameter_names() const override { return {"p"}; }
+  bool is_equilibrium() const override { return true; }
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
+    const Vector modes = turn_ * u;
+    const double x = modes(0);
+    const double y = modes(1);
+    const Vector rates{{p(0) - x * x - a_ * y * y, p(0) - y * y - b_ * x * x}};
+    const Matrix slopes{{rates(0) - 2 * x * x, -2 * a_ * x * y}, {-2 * b_ * x * y, rates(1) - 2 * y * y}};
+    if (out.residual != nullptr) *out.residual = turn_.transpose() * rates.cwiseProduct(modes);
+    if (out.jacobian != nullptr) *out.jacobian = turn_.transpose() * slopes * turn_;
+    if (out.parameter_jacobian != nullptr) *out.parameter_jacobian = u;
+    return true;
+  }
+  /// The modes squared at p = 1/2 on the branch that begins so.
+  Vector squares(const Vector& direction) const {
+    const Vector modes = (turn_ * direction.head(2)).normalized();
+    if (std::abs(modes(0)) < 1e-6) return Vector{{0, 0.5}};
+    if (std::abs(modes(1)) < 1e-6) return Vector{{0.5, 0}};
+    return Vector{{1 - a_, 1 - b_}} * 0.5 / (1 - a_ * b_);
+  }
+  Vector modes(const Vector& u) const { return turn_ * u; }
+
+ private:
+  double a_, b_;
+  Matrix turn_;
+};
+
 }  // namespace
 
 TEST_CASE("Several eigenvalues that vanish at once are located and passed without known symmetries",
@@ -127,4 +162,25 @@ TEST_CASE("Branches of three eigenvalues that vanish at once are said to be left
       trace_connected(cells, {Vector::Constant(4, -3.0), vector_of({-3})}, over("I", -3, 3));
   REQUIRE(of_cells.size() == 1);
   CHECK_THAT(of_cells[0].warning, ContainsSubstring("several eigenvalues vanish at once"));
+}
+
+TEST_CASE("Branches leave a double point whatever the other mode becomes on them", "[multiple points]") {
+  const auto [a, b] = GENERATE(std::pair(0.3, 0.2), std::pair(2.0, 3.0), std::pair(0.5, -0.5));
+  const double angle = GENERATE(0.0, 0.3, 0.7);
+  const double max_step = GENERATE(0.1, 0.03);
+  CAPTURE(a, b, angle, max_step);
+  const TwoModes problem(a, b, angle);
+  TraceOptions options = over("p", -0.5, 0.5);
+  options.max_step = max_step;
+  const Branch rest = trace(problem, {vector_of({0, 0}), vector_of({-0.5})}, options);
+  const auto points = of_type(rest, PointType::branch_point);
+  REQUIRE(points.size() == 1);
+  const std::vector<Guess> ways = other_ways(problem, "p", points[0], options.tolerances);
+  REQUIRE(ways.size() == 8);
+  for (const Guess& way : ways) {
+    const Branch branch = trace(problem, way, options);
+    REQUIRE(branch.stop == Stop::reached_end);
+    const Vector squares = problem.modes(branch.points.back().unknowns).cwiseAbs2();
+    CHECK((squares - problem.squares(way.direction)).norm() < 1e-8);
+  }
 }

@@ -44,6 +44,8 @@ class CrossingSearch {
   [[nodiscard]] bool locate(Node before, Node behind);
   std::function<std::optional<double>(double s)> values(Values& known);
   [[nodiscard]] bool take_multiple(ZeroRange range, double radius, Values& known);
+  double way_from_start() const;
+  bool linearise_behind_start(double way);
   int multiplicity_at_start();
   [[nodiscard]] bool take(const RemoteZero& zero, double sign_behind);
 
