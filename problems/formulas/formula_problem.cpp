@@ -1,7 +1,10 @@
 #include "arcslip/problems/formulas/formula_problem.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "arcslip/interval/enclosed_tape.hpp"
 #include "field_values.hpp"
@@ -51,7 +54,8 @@ Tape right_hand_side(const FormulaSystem& system) {
 }
 
 FormulaProblem::FormulaProblem(const FormulaSystem& system)
-    : kind_(system.kind),
+    : system_(std::make_shared<const FormulaSystem>(system)),
+      kind_(system.kind),
       unknowns_(names_of(system.equations)),
       parameters_(names_of(system.parameters)),
       observables_(names_of(system.observables)),
@@ -143,6 +147,14 @@ double FormulaProblem::observe(const Vector& u, const Vector& p, const Regime& /
   gradient.unknowns = vector_of(slopes).head(u.size());
   gradient.parameters = vector_of(slopes).tail(p.size());
   return value;
+}
+
+FormulaProblem FormulaProblem::twice() const {
+  FormulaSystem system = *system_;
+  system.iterate *= 2;
+  if (system.iterate > most_iterates)
+    throw std::invalid_argument(fmt::format("iterate: {} is more than {}", system.iterate, most_iterates));
+  return FormulaProblem(system);
 }
 
 EnclosedMap FormulaProblem::enclosed(const Vector& p) const {

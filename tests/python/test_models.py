@@ -70,6 +70,40 @@ def test_a_map_doubles_its_period():
     assert cycles == pytest.approx([0, 4.2 / 6.4 - half, 1 - 1 / 3.2, 4.2 / 6.4 + half], abs=1e-9)
 
 
+def test_orbits_of_twice_the_period_leave_the_period_doublings_of_a_map():
+    logistic = {"equations": {"x": "r*x*(1 - x)"}, "parameters": {"r": 2}, "start": {"x": "1 - 1/r"}, "kind": "map"}
+    branch = arcslip.trace(arcslip.Model(**logistic), range=(1.5, 3.6))
+    for begins, ends in [(3, 1 + np.sqrt(6)), (1 + np.sqrt(6), 3.5440903596)]:  # known to all of these digits
+        doubling = special(branch, "period_doubling")[0]
+        assert doubling["r"] == pytest.approx(begins, abs=1e-9)
+        (branch,) = branch.switch(doubling)
+        assert branch.complete and branch["r"][0] == pytest.approx(begins, abs=1e-9) and branch["r"][-1] == 3.6
+        assert special(branch, "period_doubling")[0]["r"] == pytest.approx(ends, abs=1e-9)
+    x = orbit = branch["x"][-1]
+    for _ in range(4):
+        orbit = 3.6 * orbit * (1 - orbit)
+    assert orbit == pytest.approx(x, abs=1e-9)
+    long = arcslip.trace(arcslip.Model(**logistic, iterate=64), range=(2.9, 3.05))
+    crossing = next(point for point in long.special if point["type"] in ("branch_point", "period_doubling"))
+    assert crossing["type"] == "branch_point" and long.switch(crossing)
+
+
+def test_each_orbit_leaves_where_two_multipliers_pass_minus_one_at_once():
+    equations = {"x": "-(1 + p)*x + x^3 + 0.3*x*y^2", "y": "-(1 + p)*y + y^3 + 0.2*x^2*y"}
+    branch = arcslip.trace(arcslip.Model(equations, {"p": -0.5}, kind="map"), range=(-0.5, 0.5))
+    (doubling,) = special(branch, "period_doubling")
+    ends = sorted(abs(doubled.unknowns[-1]).tolist() for doubled in branch.switch(doubling))
+    both = [np.sqrt(0.7 / 0.94 / 2), np.sqrt(0.8 / 0.94 / 2)]
+    assert np.array(ends) == pytest.approx(np.array([[0, np.sqrt(0.5)], both, both, [np.sqrt(0.5), 0]]), abs=1e-9)
+
+
+def test_orbits_of_more_steps_than_a_map_may_take_are_refused():
+    map = arcslip.Model({"x": "-(1 + p)*x + x^3"}, {"p": -0.5}, kind="map", iterate=51)
+    branch = arcslip.trace(map, range=(-0.1, 0.1))
+    with pytest.raises(ValueError, match="^iterate: 102 is more than 100$"):
+        branch.switch(special(branch, "period_doubling")[0])
+
+
 HENON = {
     "equations": {"x": "1 - a*x^2 + y", "y": "b*x"},
     "parameters": {"a": 0.1, "b": 0.3},

@@ -293,8 +293,8 @@ class Branch(_Columns):
 
     def switch(self, point, *, window=None, progress=None, **options):
         """Trace the other branches that leave a branch point, a switch or a corner, the cycles that leave a Hopf
-        point or a period doubling; of a curve in two parameters the other curves that meet it at a point of
-        codimension two, or begin there.
+        point or a period doubling, of a map as points of twice its `iterate`; of a curve in two parameters the other
+        curves that meet it at a point of codimension two, or begin there.
 
         Parameters
         ----------

@@ -135,17 +135,16 @@ void require_branch(const BranchHandle& handle, const char* what) {
   if (handle.curve()) throw py::value_error(fmt::format("{}: not from a curve in two parameters", what));
 }
 
-Handles trace_guesses(const BranchHandle& handle, const std::vector<Guess>& guesses, TraceOptions& options,
-                      const py::object& progress) {
+Handles trace_guesses(const BranchHandle& handle, const std::shared_ptr<const continuation::Problem>& problem,
+                      const std::vector<Guess>& guesses, TraceOptions& options, const py::object& progress) {
   Handles handles;
   for (const Guess& guess : guesses) {
     const Stopwatch watch;
     Branch branch = in_engine(options, progress, [&](const auto& observer) {
-      return continuation::trace(*handle.traced().base.problem, guess, options, observer);
+      return continuation::trace(*problem, guess, options, observer);
     });
     handles.push_back(std::make_shared<BranchHandle>(
-        beside(handle, options, std::move(branch), watch.seconds(), handle.traced().base.problem),
-        handle.problem()));
+        beside(handle, options, std::move(branch), watch.seconds(), problem), handle.problem()));
   }
   return handles;
 }
@@ -183,7 +182,7 @@ Handles start_from(const BranchHandle& handle, std::size_t point, bool forward, 
     guess.regime = {};
     return trace_starts(handle, {{own, guess}}, options, progress);
   }
-  return trace_guesses(handle, {guess}, options, progress);
+  return trace_guesses(handle, handle.traced().base.problem, {guess}, options, progress);
 }
 
 /// Of a branch of orbits, or of equilibria at a Hopf point.
@@ -206,6 +205,21 @@ std::vector<continuation::OrbitStart> orbits_leaving(const BranchHandle& handle,
       starts.push_back({start.problem, start.guess, start.both_ways});
   }
   return starts;
+}
+
+/// The orbits of twice the period that leave a period doubling of a map, which are a branch point of twice as
+/// many steps: the second way has the same orbits, one step on.
+Handles switch_to_doubled(const BranchHandle& handle, const problems::FormulaProblem& map, BranchPoint point,
+                          TraceOptions& options, const py::object& progress) {
+  const auto twice = std::make_shared<const problems::FormulaProblem>(map.twice());
+  point.type = PointType::branch_point;
+  std::vector<Guess> ways;
+  for (Guess& way : continuation::other_ways(*twice, options.parameter, point)) {
+    const bool is_known = std::any_of(ways.begin(), ways.end(),
+                                      [&](const Guess& known) { return known.direction == -way.direction; });
+    if (!is_known) ways.push_back(std::move(way));
+  }
+  return trace_guesses(handle, twice, ways, options, progress);
 }
 
 /// The curves that meet one in two parameters, or begin there.
@@ -235,10 +249,13 @@ Handles switch_at(const BranchHandle& handle, std::size_t point,
       handle.heard([&] { return orbits_leaving(handle, point, options); });
   if (!orbits.empty() || orbits_of(handle.traced()) != nullptr)
     return trace_starts(handle, orbits, options, progress);
-  const std::vector<Guess> ways = handle.heard([&] {
-    return continuation::other_ways(*handle.traced().base.problem, options.parameter, handle.point(point));
-  });
-  return trace_guesses(handle, ways, options, progress);
+  const std::shared_ptr<const continuation::Problem>& base = handle.traced().base.problem;
+  if (const auto* map = dynamic_cast<const problems::FormulaProblem*>(base.get());
+      map != nullptr && map->is_map() && handle.point(point).type == PointType::period_doubling)
+    return switch_to_doubled(handle, *map, handle.point(point), options, progress);
+  const std::vector<Guess> ways =
+      handle.heard([&] { return continuation::other_ways(*base, options.parameter, handle.point(point)); });
+  return trace_guesses(handle, base, ways, options, progress);
 }
 
 std::shared_ptr<BranchHandle> curve_through(const BranchHandle& handle, std::size_t point,

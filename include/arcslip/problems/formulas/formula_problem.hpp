@@ -126,10 +126,15 @@ class FormulaProblem : public continuation::Problem {
   double observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                  continuation::Gradient& gradient) const override;
 
+  /// Of a map: the points that are fixed after twice as many steps. Throws std::invalid_argument where these
+  /// are more than `most_iterates`.
+  FormulaProblem twice() const;
+
   /// F and dF/du at p over boxes of the unknowns; null where a formula has no enclosure.
   EnclosedMap enclosed(const Vector& p) const;
 
  private:
+  std::shared_ptr<const FormulaSystem> system_;
   FormulaKind kind_;
   std::vector<std::string> unknowns_;
   std::vector<std::string> parameters_;
