@@ -14,7 +14,8 @@ Targets::Targets(const Problem& problem, Index parameter, const TraceOptions& op
   std::vector<Target> targets{{options.to, Target::Kind::end}, {options.from, Target::Kind::bound}};
   for (const double value : options.stop_at) {
     if (!(value >= low && value <= high)) {
-      throw std::invalid_argument(fmt::format("stop_at: {} is not between {} and {}", value, low, high));
+      throw std::invalid_argument(
+          fmt::format("stop_at: {} = {} is not between {} and {}", options.parameter, value, low, high));
     }
     targets.push_back({value, Target::Kind::user});
   }

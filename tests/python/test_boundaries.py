@@ -77,3 +77,13 @@ def test_other_models_are_refused():
         arcslip.trace_boundary(
             bratu(parameters={"mean": 0.1, "lambda": 0.5}, integrals=["u - mean"], free=["lambda"]), parameter="lambda"
         )
+
+
+def test_only_values_of_the_continued_parameter_are_stopped_at():
+    (branch,) = arcslip.trace_boundary(bratu(), range=(0.5, 3), stop_at=[1])
+    assert [point["lambda"] for point in branch.special if point["type"] == "user"] == [1]
+    for given in ({"u_max": [0.2]}, 1.0):
+        with pytest.raises(ValueError, match="^stop_at: expected values of lambda alone, which is continued, got "):
+            arcslip.trace_boundary(bratu(), range=(0.5, 3), stop_at=given)
+    with pytest.raises(ValueError, match="stop_at: lambda = 4 is not between 0.5 and 3"):
+        arcslip.trace_boundary(bratu(), range=(0.5, 3), stop_at=[4])

@@ -56,7 +56,7 @@ def trace(
     progress : callable, optional
         Called up to twenty times a second with four numbers: 0, 1, points so far, arclength.
     stop_at : sequence of float
-        Values of the parameter to put a point on.
+        Values of the parameter that is continued, to put a point on.
     extrema_of : sequence of str
         Observables, or unknowns by name, whose extrema become peaks and troughs.
     events : dict, optional

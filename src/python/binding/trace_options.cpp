@@ -44,6 +44,15 @@ void set_events(const py::handle& given, const Problem& problem, TraceOptions& o
   }
 }
 
+void set_stop_at(const py::handle& given, TraceOptions& options) {
+  try {
+    options.stop_at = given.cast<std::vector<double>>();
+  } catch (const py::cast_error&) {
+    throw py::value_error(fmt::format("stop_at: expected values of {} alone, which is continued, got {}",
+                                      options.parameter, py::repr(given).cast<std::string>()));
+  }
+}
+
 template <class Value>
 Setter plain(Value TraceOptions::*member) {
   return [member](const py::handle& given, const Problem&, TraceOptions& options) {
@@ -59,7 +68,8 @@ const std::vector<std::pair<std::string, Setter>>& setters() {
        [](const py::handle& given, const Problem&, TraceOptions& options) {
          std::tie(options.from, options.to) = given.cast<std::pair<double, double>>();
        }},
-      {"stop_at", plain(&TraceOptions::stop_at)},
+      {"stop_at",
+       [](const py::handle& given, const Problem&, TraceOptions& options) { set_stop_at(given, options); }},
       {"extrema_of", plain(&TraceOptions::extrema_of)},
       {"events", [](const py::handle& given, const Problem& problem,
                     TraceOptions& options) { set_events(given, problem, options); }},
