@@ -60,8 +60,8 @@ Branch one_way(const OrbitProblem& problem, TraceOptions options, const OrbitOpt
   const Observer watching = [&](const BranchPoint& point) {
     told = observer && !observer(point);
     worn = !meshes.serves(point);
-    grows = !growth.goes_on({point.unknowns, point.parameters, point.regime, {}},
-                            point.type == PointType::fold);
+    grows =
+        !growth.goes_on({point.unknowns, point.parameters, point.regime, {}}, point.type == PointType::fold);
     rests = !options.branch_point_pairs && is_at_rest(problem, point);
     closes = left && point.type == PointType::branch_point &&
              is_same(*left, mark_of(problem, point, index_of(problem.parameter_names(), options.parameter)));

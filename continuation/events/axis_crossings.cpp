@@ -48,20 +48,24 @@ class AxisSearch {
   }
 
  private:
-  /// Whether one pair comes to the axis and another leaves it apart from that, as their imaginary parts tell:
-  /// the real parts in order need not change their signs then.
+  /// Whether one pair comes to the axis and another leaves it apart from that, as the nearest at both ends
+  /// tell: the real parts in order need not change their signs then.
   bool pairs_pass_each_other() const {
     const Look& here = step_.watch.kept().front();
+    const double told = step_.tolerances.significant * largest_;
     double place[2] = {-1, -1};  // of the last that rises and of the last that falls, in steps
     for (const Complex& end : at_end_) {
       if (!(end.imag() > 0)) continue;
       std::size_t nearest = here.turns.size();
+      double least = HUGE_VAL;
       for (std::size_t i = 0; i < here.turns.size(); ++i) {
-        const bool is_nearer = nearest == here.turns.size() || std::abs(here.turns[i] - end.imag()) <
-                                                                   std::abs(here.turns[nearest] - end.imag());
-        if (here.turns[i] > 0 && is_nearer) nearest = i;
+        const double distance = std::abs(Complex(here.rates[i], here.turns[i]) - end);
+        if (!(here.turns[i] > 0) || !(distance < least)) continue;
+        least = distance;
+        nearest = i;
       }
       if (nearest == here.turns.size() || here.rates[nearest] * end.real() >= 0) continue;
+      if (std::min(std::abs(here.rates[nearest]), std::abs(end.real())) <= told) continue;
       place[end.real() > 0 ? 0 : 1] = here.rates[nearest] / (here.rates[nearest] - end.real());
     }
     return place[0] >= 0 && place[1] >= 0 && std::abs(place[0] - place[1]) > apart;
