@@ -1,5 +1,4 @@
 #include "arcslip/continuation/cycles/cycle_branch.hpp"
-#include "arcslip/continuation/cycles/orbit_mark.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include "arcslip/continuation/cycles/end_of_kind.hpp"
 #include "arcslip/continuation/cycles/growth_watch.hpp"
 #include "arcslip/continuation/cycles/mesh_watch.hpp"
+#include "arcslip/continuation/cycles/orbit_mark.hpp"
 #include "arcslip/continuation/path/watch.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"

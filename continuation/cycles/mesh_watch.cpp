@@ -68,8 +68,8 @@ void MeshWatch::take_far_signs(const CurvePoint& before, const CurvePoint& after
   const std::vector<PointType> types = orbits_.test_types();
   Vector old(std::ssize(types));
   Vector now(std::ssize(types));
+  orbits_.test(after.unknowns, after.parameters, after.regime, now);  // whose multipliers are at hand
   orbits_.test(before.unknowns, before.parameters, before.regime, old);
-  orbits_.test(after.unknowns, after.parameters, after.regime, now);
   for (Index i = 0; i < now.size(); ++i) {
     const auto which = static_cast<std::size_t>(i);
     if (types[which] == PointType::period_doubling && std::min(std::abs(old(i)), std::abs(now(i))) > far)

@@ -118,6 +118,7 @@ int CrossingSearch::multiplicity_at_start() {
   for (std::size_t i = 0; i < 2; ++i) {
     if (!linearise_behind_start(way * static_cast<double>(i + 1))) return 1;
     logs[i] = corrector_.log_determinant();
+    if (i == 0) behind_start_ = {way, corrector_.orientation() * std::exp(logs[0] - unit_), std::nan("")};
   }
   const double order = (logs[1] - logs[0]) / std::log(2.0);
   return std::isfinite(order) ? std::max(1, static_cast<int>(std::lround(order))) : 1;
@@ -126,12 +127,8 @@ int CrossingSearch::multiplicity_at_start() {
 /// The determinant in its unit; in a step that starts on a branch point it is divided by s to its power.
 std::optional<Node> CrossingSearch::determinant_at(double s) {
   const auto sized = [this](double sign, double log) { return sign * std::exp(log - unit_); };
-  if (s == 0 && from_zero_ > 1) {
-    const double way = way_from_start();
-    if (!linearise_behind_start(way)) return std::nullopt;
-    const double value = sized(corrector_.orientation(), corrector_.log_determinant());
-    return Node{0, value / std::pow(way, from_zero_), std::nan("")};
-  }
+  if (s == 0 && from_zero_ > 1)
+    return Node{0, behind_start_.value / std::pow(behind_start_.s, from_zero_), std::nan("")};
   const bool inside = s > 0 && s < step_.distance;
   if (inside && !probe_between(s)) return std::nullopt;
   const CurvePoint& point = inside ? prober_.probed().point : s > 0 ? step_.there : step_.here;

@@ -87,6 +87,7 @@ void Tracer::take_events(const Signs& before) {
         stands_still(problem_, branch_.points, parameter_, options_.tolerances))
       stop(Stop::repeats, "along the branch " + options_.parameter + " does not change but for rounding");
   }
+  // Where several vanish together the order of rounding tells which, and the count may be too low.
   if (before.unstable >= 0) state_.signs.unstable = std::max(state_.signs.unstable, 0);
   if (stopped_) return;
   // At a corner an observable may turn, and turn again before the next step ends.

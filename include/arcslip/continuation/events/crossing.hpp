@@ -58,6 +58,7 @@ class CrossingSearch {
   double log_there_ = 0;
   double unit_ = 0;
   int from_zero_ = 0;  // of the branch point on which the step starts its multiplicity, else 0
+  Node behind_start_;  // the determinant in its unit where it begins
   Vector expected_;
   Vector work_;
 };
