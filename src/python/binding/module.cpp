@@ -4,6 +4,7 @@
 #include "python/binding/cases.hpp"
 #include "python/binding/cycles.hpp"
 #include "python/binding/formulas.hpp"
+#include "python/binding/solutions.hpp"
 #include "python/binding/surface.hpp"
 #include "python/binding/trace.hpp"
 
@@ -13,6 +14,7 @@ PYBIND11_MODULE(_core, module) {
   arcslip::python::bind_cases(module);
   arcslip::python::bind_cycles(module);
   arcslip::python::bind_formulas(module);
+  arcslip::python::bind_solutions(module);
   arcslip::python::bind_surface(module);
   arcslip::python::bind_trace(module);
 }

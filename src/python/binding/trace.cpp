@@ -9,7 +9,6 @@
 #include "arcslip/continuation/cycles/cycle_branch.hpp"
 #include "arcslip/continuation/path/all_solutions.hpp"
 #include "arcslip/continuation/path/switching.hpp"
-#include "arcslip/problems/tasks/all_solutions.hpp"
 #include "cases/cycles.hpp"
 #include "cases/further_curves.hpp"
 #include "python/binding/formulas.hpp"
@@ -95,33 +94,6 @@ Handles trace(const std::shared_ptr<PythonProblem>& problem, const py::handle& u
     handles.push_back(std::make_shared<BranchHandle>(std::move(one), problem));
   }
   return handles;
-}
-
-/// The solutions, whether these are all in the box, and why.
-py::tuple solve_all(const std::shared_ptr<PythonProblem>& problem, const py::object& formulas,
-                    const std::vector<py::object>& starts, const py::handle& p, const py::handle& regime,
-                    const std::pair<Vector, Vector>& box, int count) {
-  std::vector<Guess> guesses;
-  guesses.reserve(starts.size());
-  for (const py::object& start : starts) guesses.push_back(guess_of(*problem, start, p, regime));
-  continuation::SolveAllOptions seeking;
-  seeking.lower = box.first;
-  seeking.upper = box.second;
-  seeking.starts = count;
-  EnclosedMap map;
-  if (!formulas.is_none()) {
-    if (const auto system = formulas.cast<const Formulas&>().problem)
-      map = system->enclosed(guesses.front().parameters);
-  }
-  TraceOptions options;
-  const problems::AllSolutions found = in_engine(options, py::none(), [&](const auto&) {
-    seeking.go_on = options.go_on;
-    return problems::find_all_solutions(*traced_problem(problem), guesses, seeking, map);
-  });
-  py::list all;
-  for (const Guess& solution : found.solutions) all.append(give(solution.unknowns));
-  const std::optional<bool>& complete = found.count.complete;
-  return py::make_tuple(all, complete ? py::object(py::bool_(*complete)) : py::none(), found.count.reason);
 }
 
 /// The options of a branch with those that are given.
@@ -389,17 +361,7 @@ void bind_trace(py::module_& module) {
              [](const std::shared_ptr<PythonProblem>& problem, const py::object& u, const py::object& p,
                 const py::object& regime, const std::string& how, const py::object& lower,
                 const py::object& upper, bool check, const py::dict& options, const py::object& progress) {
-               std::pair<Vector, Vector> box;
-               if (!lower.is_none()) box = {take_all(lower, "box"), take_all(upper, "box")};
-               return trace(problem, u, p, regime, how, box, check, options, progress);
-             });
-  module.def("solve_all",
-             [](const std::shared_ptr<PythonProblem>& problem, const py::object& formulas,
-                const std::vector<py::object>& starts, const py::object& p, const py::object& regime,
-                const py::object& lower, const py::object& upper, int count) {
-               std::pair<Vector, Vector> box;
-               if (!lower.is_none()) box = {take_all(lower, "box"), take_all(upper, "box")};
-               return solve_all(problem, formulas, starts, p, regime, box, count);
+               return trace(problem, u, p, regime, how, box_of(lower, upper), check, options, progress);
              });
   module.def("start_from", start_from);
   module.def("switch_at", switch_at);

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include <chrono>
+#include <utility>
 
 #include "python/binding/branch.hpp"
 
@@ -79,6 +80,12 @@ inline continuation::Guess guess_of(const PythonProblem& problem, const py::hand
   take(p, "p0", guess.parameters);
   guess.regime = problem.to_regime(regime);
   return guess;
+}
+
+/// The range that unknowns are kept in, empty without one. Throws py::value_error.
+inline std::pair<Vector, Vector> box_of(const py::handle& lower, const py::handle& upper) {
+  if (lower.is_none()) return {};
+  return {take_all(lower, "box"), take_all(upper, "box")};
 }
 
 }  // namespace arcslip::python
