@@ -25,15 +25,40 @@ Matrix in_units(const Matrix& change, const Vector& scale) {
   return change / change.cwiseQuotient(scale.replicate(1, change.cols())).cwiseAbs().maxCoeff();
 }
 
+/// A pair of eigenvalues, by one of the two, and its vectors of length 1.
+struct Pair {
+  Complex value;
+  double beside;  ///< how large the largest eigenvalue is
+  ComplexVector right;
+  ComplexVector left;
+};
+
+/// The scale, raised for unknowns that move faster than they stand: what is 0 at rest, as velocities are, has
+/// no size of its own, and is given the one that it has when the unknowns that take part most in the motion
+/// of an eigenvector, right and left, move by their size at rest.
+Vector scale_in_motion(const Vector& scale, const Vector& at_rest, const Pair& pair) {
+  constexpr double much = 0.5;  // of the largest share
+  const Vector size = pair.right.cwiseAbs();
+  const Vector share = size.cwiseProduct(pair.left.cwiseAbs());
+  double far = 0;
+  for (Index i = 0; i < size.size(); ++i) {
+    if (share(i) >= much * share.maxCoeff() && size(i) > 0)
+      far = std::max(far, std::abs(at_rest(i)) / size(i));
+  }
+  return scale.cwiseMax(far * size);
+}
+
 /// The cycle that leaves an equilibrium with the motion of an eigenvector q; w q + its conjugate, if a size
 /// |w| is given, but by no more than part of the scale.
-SmallCycle small_cycle(const std::shared_ptr<const Field>& field, const Guess& hopf, const ComplexVector& q,
-                       double omega, const std::optional<double>& size, const CycleOptions& options) {
+SmallCycle small_cycle(const std::shared_ptr<const Field>& field, const Guess& hopf, const Pair& pair,
+                       const std::optional<double>& size, const CycleOptions& options) {
   constexpr double farthest = 0.3;  // of the scale
   const Index n = field->size();
   Vector scale(n);
   Vector unused(hopf.parameters.size());
   field->scale(hopf.unknowns, hopf.parameters, scale, unused);
+  scale = scale_in_motion(scale, hopf.unknowns, pair);
+  const ComplexVector& q = pair.right;
   const OrbitMesh mesh = options.mesh(*field);
   Matrix motion(n, mesh.nodes());
   for (Index node = 0; node < mesh.nodes(); ++node)
@@ -43,8 +68,8 @@ SmallCycle small_cycle(const std::shared_ptr<const Field>& field, const Guess& h
   const double of_unit = 2 * q.cwiseAbs().cwiseQuotient(scale).maxCoeff() / q.norm();
   const double far = size ? std::min(*size * of_unit, farthest) : first_departure;
   const Matrix still = hopf.unknowns.replicate(1, mesh.nodes());
-  CycleStart start = cycle_from_orbit(field, mesh, still + std::max(shape, 2 * far) * motion, two_pi / omega,
-                                      hopf.parameters);
+  CycleStart start = cycle_from_orbit(field, mesh, still + std::max(shape, 2 * far) * motion,
+                                      two_pi / pair.value.imag(), hopf.parameters);
   start.guess.unknowns.head(still.size()) = (still + far * motion).reshaped();
   start.guess.direction.setZero(start.guess.unknowns.size() + 1);
   start.guess.direction.head(motion.size()) = motion.reshaped();
@@ -61,14 +86,8 @@ CycleStart cycle_from_orbit(std::shared_ptr<const Field> field, const OrbitMesh&
 
 namespace {
 
-/// The pairs of eigenvalues, each by the one with a positive imaginary part.
-struct Pairs {
-  ComplexVector values;
-  ComplexMatrix vectors;
-  std::vector<Index> places;
-};
-
-Pairs pairs_at(const Field& field, const Guess& hopf) {
+/// The pairs of eigenvalues of an equilibrium, each by the one with a positive imaginary part.
+std::vector<Pair> pairs_at(const Field& field, const Guess& hopf) {
   const Index n = field.size();
   const bool is_sparse = field.sparse();
   Matrix jacobian(is_sparse ? 0 : n, n);
@@ -81,14 +100,28 @@ Pairs pairs_at(const Field& field, const Guess& hopf) {
   }
   if (field.is_periodic() || !field.evaluate(0, hopf.unknowns, hopf.parameters, wanted))
     throw std::invalid_argument("cycles_from_hopf: no equilibrium");
-  Pairs pairs;
-  pairs.values = is_sparse ? nearest_eigenvalues(sparse_jacobian, eigenvalues_looked_at, &pairs.vectors)
-                           : eigenvalues(jacobian, &pairs.vectors);
-  for (Index i = 0; i < pairs.values.size(); ++i) {
-    if (pairs.values(i).imag() > 0) pairs.places.push_back(i);
+  ComplexMatrix right;
+  ComplexMatrix left;
+  const auto values_of = [&](bool transposed, ComplexMatrix& vectors) {
+    if (is_sparse) {
+      const SparseMatrix matrix = transposed ? SparseMatrix(sparse_jacobian.transpose()) : sparse_jacobian;
+      return nearest_eigenvalues(matrix, eigenvalues_looked_at, &vectors);
+    }
+    return eigenvalues(transposed ? Matrix(jacobian.transpose()) : jacobian, &vectors);
+  };
+  const ComplexVector values = values_of(false, right);
+  const ComplexVector again = values_of(true, left);
+  std::vector<Pair> pairs;
+  for (Index i = 0; i < values.size(); ++i) {
+    if (!(values(i).imag() > 0)) continue;
+    Pair& pair =
+        pairs.emplace_back(values(i), values.cwiseAbs().maxCoeff(), right.col(i), ComplexVector::Zero(n));
+    Index same = 0;
+    if (again.size() == 0) continue;  // not converged
+    (again.array() - values(i)).abs().minCoeff(&same);
+    pair.left = left.col(same);
   }
-  if (pairs.places.empty())
-    throw std::invalid_argument("cycles_from_hopf: no pair of eigenvalues is complex");
+  if (pairs.empty()) throw std::invalid_argument("cycles_from_hopf: no pair of eigenvalues is complex");
   return pairs;
 }
 
@@ -96,27 +129,22 @@ Pairs pairs_at(const Field& field, const Guess& hopf) {
 
 std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& field, const Guess& hopf,
                                          const CycleOptions& options) {
-  Pairs pairs = pairs_at(*field, hopf);
-  const auto off_axis = [&](Index i) { return std::abs(pairs.values(i).real()); };
-  std::sort(pairs.places.begin(), pairs.places.end(),
-            [&](Index i, Index j) { return off_axis(i) < off_axis(j); });
-  const double on_axis = off_axis(pairs.places.front()) + located * pairs.values.cwiseAbs().maxCoeff();
+  std::vector<Pair> pairs = pairs_at(*field, hopf);
+  const auto off_axis = [](const Pair& pair) { return std::abs(pair.value.real()); };
+  std::ranges::stable_sort(pairs, {}, off_axis);
+  const double on_axis = off_axis(pairs.front()) + located * pairs.front().beside;
   std::vector<CycleStart> starts;
-  for (const Index i : pairs.places) {
-    if (off_axis(i) <= on_axis)
-      starts.push_back(
-          small_cycle(field, hopf, pairs.vectors.col(i), pairs.values(i).imag(), {}, options).start);
+  for (const Pair& pair : pairs) {
+    if (off_axis(pair) <= on_axis) starts.push_back(small_cycle(field, hopf, pair, {}, options).start);
   }
   return starts;
 }
 
 SmallCycle cycle_of_pair(const std::shared_ptr<const Field>& field, const Guess& hopf, double omega,
                          const std::optional<double>& size, const CycleOptions& options) {
-  const Pairs pairs = pairs_at(*field, hopf);
-  const auto away = [&](Index i) { return std::abs(pairs.values(i) - Complex(0, omega)); };
-  const Index nearest = *std::min_element(pairs.places.begin(), pairs.places.end(),
-                                          [&](Index i, Index j) { return away(i) < away(j); });
-  return small_cycle(field, hopf, pairs.vectors.col(nearest), pairs.values(nearest).imag(), size, options);
+  const std::vector<Pair> pairs = pairs_at(*field, hopf);
+  const auto away = [&](const Pair& pair) { return std::abs(pair.value - Complex(0, omega)); };
+  return small_cycle(field, hopf, *std::ranges::min_element(pairs, {}, away), size, options);
 }
 
 std::optional<OrbitStart> orbit_from_doubling(const PeriodicOrbit& problem, Index parameter,

@@ -132,6 +132,31 @@ TEST_CASE("Cycles of a Hopf normal form are its circles", "[cycles]") {
   }
 }
 
+TEST_CASE("Cycles leave a Hopf point as large in any unit of time", "[cycles]") {
+  for (const double rate : {1.0, 1e3, 1e6}) {
+    INFO("rate " << rate);
+    const auto oscillator = make_flow(2, {"mu"}, [=](const auto& u, const auto& p, auto& f) {
+      const auto x = u[0] - 5.0;
+      f[0] = u[1];
+      f[1] = rate * (p[0] - x * x) * u[1] - rate * rate * (x + 0.3 * x * x);
+    });
+    const auto all =
+        cycles_of(oscillator, Eigen::Vector2d(5, 0), Vector::Constant(1, -0.5), over("mu", -0.5, 0.5));
+    REQUIRE(all.size() == 1);
+    const Branch& branch = all[0].branch;
+    CHECK(branch.stop == Stop::reached_end);
+    for (const BranchPoint& point : branch.points) CHECK(point.type != PointType::fold);
+    Vector least;
+    Vector most;
+    for (Vector* observed : {&least, &most}) {
+      const BranchPoint& point = observed == &least ? branch.points.front() : branch.points.back();
+      all[0].problem->observe(point.unknowns, point.parameters, point.regime, *observed);
+    }
+    CHECK_THAT(least(1), WithinRel(5.005, 1e-4));
+    CHECK_THAT(most(0) * rate, WithinRel(7.1, 0.1));
+  }
+}
+
 TEST_CASE("Points of short steps take little more than one factorisation each", "[cycles]") {
   const OrbitMesh mesh(CollocationRule(4), 30);
   const CycleStart start = cycle_from_orbit(std::make_shared<EquilibriumField>(van_der_pol()), mesh,
