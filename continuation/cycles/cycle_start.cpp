@@ -33,19 +33,20 @@ struct Pair {
   ComplexVector left;
 };
 
-/// The scale, raised for unknowns that move faster than they stand: what is 0 at rest, as velocities are, has
-/// no size of its own, and is given the one that it has when the unknowns that take part most in the motion
-/// of an eigenvector, right and left, move by their size at rest.
+/// The scale, raised for unknowns that vanish at rest, as velocities do: they have no size of their own, and
+/// are given what they move by when none of the others that take part in the motion moves by more than its
+/// size at rest.
 Vector scale_in_motion(const Vector& scale, const Vector& at_rest, const Pair& pair) {
-  constexpr double much = 0.5;  // of the largest share
+  constexpr double vanishing = 1e-8;  // of the scale
+  constexpr double much = 0.1;        // of the largest share
   const Vector size = pair.right.cwiseAbs();
   const Vector share = size.cwiseProduct(pair.left.cwiseAbs());
-  double far = 0;
+  double far = HUGE_VAL;
   for (Index i = 0; i < size.size(); ++i) {
-    if (share(i) >= much * share.maxCoeff() && size(i) > 0)
-      far = std::max(far, std::abs(at_rest(i)) / size(i));
+    const double own = std::abs(at_rest(i));
+    if (own > vanishing * scale(i) && share(i) > much * share.maxCoeff()) far = std::min(far, own / size(i));
   }
-  return scale.cwiseMax(far * size);
+  return std::isfinite(far) ? scale.cwiseMax(far * size) : scale;
 }
 
 /// The cycle that leaves an equilibrium with the motion of an eigenvector q; w q + its conjugate, if a size
