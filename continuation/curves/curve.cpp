@@ -18,6 +18,7 @@
 #include "arcslip/continuation/points/hopf_problem.hpp"
 #include "arcslip/continuation/points/level_problem.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
+#include "arcslip/continuation/problem/evaluation.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -181,6 +182,15 @@ CurveStart curve_at(const Level& level, const Problem& base, const std::string& 
 
 namespace {
 
+/// Whether the start is a point of the curve that its parameter does not tell, as that stands still there.
+bool is_on_curve(ExtendedProblem& problem, const BasePoint& start, const Guess& guess) {
+  constexpr double hardly = 1e-8;
+  if (!problem.adapt(start)) return false;
+  Vector residual(problem.size());
+  return evaluate(problem, guess.unknowns, guess.parameters, guess.regime, {.residual = &residual}) &&
+         residual.lpNorm<Eigen::Infinity>() <= hardly;
+}
+
 /// From where it begins along its direction, or through a special point both ways.
 Branch trace_from(ExtendedProblem& problem, const BasePoint& start, const Vector& direction,
                   const TraceOptions& options, const CurveWindow& window, const OrbitOptions& orbits,
@@ -190,12 +200,13 @@ Branch trace_from(ExtendedProblem& problem, const BasePoint& start, const Vector
   problem.join(start, guess.unknowns, guess.parameters);
   if (direction.size() == 0) {
     const auto located = locate(problem, start, options.tolerance);
-    if (!located) {
+    if (located) {
+      problem.join(located->point, guess.unknowns, guess.parameters);
+    } else if (!is_on_curve(problem, start, guess)) {
       Branch none;
       none.explanation = "no special point of this kind was found next to the start";
       return none;
     }
-    problem.join(located->point, guess.unknowns, guess.parameters);
   }
   const long to_locate = problem.evaluations() - before;
   const TraceOptions all = bounded(problem, options, window, guess.unknowns, guess.regime);

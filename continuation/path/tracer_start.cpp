@@ -126,7 +126,8 @@ bool Tracer::start_from_afar(const Guess& guess, double forward) {
          stepper_.start(found.unknowns, guess.parameters, guess.regime, forward) == Correction::converged;
 }
 
-/// A start on a fold or on a branch point, where the parameter does not determine the solution.
+/// A start on a fold or on a branch point, or where the parameter stands still along the whole branch, where
+/// it does not determine the solution.
 Correction Tracer::start_singular(const Guess& guess, double forward) {
   const BasePoint near{guess.unknowns, guess.parameters, guess.regime, {}};
   const auto is_there = [&](const BasePoint& point) {
@@ -151,14 +152,17 @@ Correction Tracer::start_singular(const Guess& guess, double forward) {
     }
   }
   FoldProblem fold(problem_, parameter_);
-  const auto located = locate(fold, near, corrector_.tolerance());
+  auto located = locate(fold, near, corrector_.tolerance());
+  if (located && !is_there(located->point)) located.reset();
+  const bool is_adapted = located || fold.adapt(near);
   evaluations += fold.evaluations();
-  if (located && is_there(located->point)) {
-    Vector direction = Vector::Zero(corrector_.size() + 1);
-    direction.head(corrector_.size()) = forward * fold.right_null();
-    return stepper_.start_along(located->point.unknowns, located->point.parameters, guess.regime, direction);
-  }
-  return Correction::singular;
+  if (!is_adapted) return Correction::singular;
+  const BasePoint& there = located ? located->point : near;
+  Vector direction = Vector::Zero(corrector_.size() + 1);
+  direction.head(corrector_.size()) = forward * fold.right_null();
+  const Correction result = stepper_.start_along(there.unknowns, there.parameters, guess.regime, direction);
+  const BasePoint begins{{}, stepper_.here().parameters, {}, {}};
+  return is_there(begins) || result != Correction::converged ? result : Correction::singular;
 }
 
 }  // namespace arcslip::continuation

@@ -138,6 +138,47 @@ TEST_CASE("Neimark-Sacker points are followed from zero-Hopf points that have th
     CHECK(dynamic_cast<const continuation::TorusProblem*>(other.curve.get()) == nullptr);
 }
 
+TEST_CASE("Curves are followed on which the second parameter stands still", "[cycles]") {
+  // pairs on the axis at m = 0 and at k = 0
+  const auto curves = traced_of(R"case([model.parameters]
+m = -0.5
+k = -0.2
+[model.equations]
+x = "(m - x^2 - y^2 - (z^2 + w^2)/2)*x - 2.7*y"
+y = "2.7*x + (m - x^2 - y^2 - (z^2 + w^2)/2)*y"
+z = "(k - 1.5*(x^2 + y^2) - z^2 - w^2)*z - w"
+w = "z + (k - 1.5*(x^2 + y^2) - z^2 - w^2)*w"
+[branch]
+curve = "hopf"
+parameters = ["m", "k"]
+window = [-0.5, 0.4]
+from = -0.3
+to = 0.3
+switching = true
+)case");
+  REQUIRE(curves.size() == 4);
+  const TracedBranch& other = curves[1];
+  CHECK(other.branch.complete());
+  check_values(
+      {value(other, other.branch.points.front(), "m"), value(other, other.branch.points.back(), "m")},
+      {-0.5, 0.4}, 0);
+  CHECK(values_at(other, PointType::hopf_hopf, "m").size() == 1);
+  CHECK(values_at(other, PointType::fold, "m").empty());
+  for (const BranchPoint& point : other.branch.points)
+    CHECK_THAT(value(other, point, "k"), WithinAbs(0, 1e-12));
+  // cycles of r^2 = m at x = 0, k = 0
+  const auto tori = from_hopf_points(
+      "x = \"m + x^2 - y^2 - z^2\"\ny = \"(k + x + x^2)*y - z\"\nz = \"y + (k + x + x^2)*z\"\n"
+      "[model.start]\nx = -0.28\n",
+      "m = -0.07\nk = 0.2\n", "parameters = [\"m\", \"k\"]\nwindow = [-1, 0.12]\nfrom = -0.5\nto = 0.22\n");
+  REQUIRE(kinds(tori) == Names{"tori"});
+  CHECK(tori[0].branch.complete());
+  check_values(values_at(tori[0], PointType::resonance_1_4, "m"), {1.0 / 32}, 1e-9);
+  check_values(values_at(tori[0], PointType::resonance_1_3, "m"), {1.0 / 18}, 1e-9);
+  CHECK(values_at(tori[0], PointType::fold, "m").empty());
+  CHECK(value(tori[0], tori[0].branch.points.back(), "m") == 0.12);
+}
+
 TEST_CASE("Curves of cycles are as good everywhere as where they begin", "[cycles]") {
   const std::string neuron = R"case(
 [model.parameters]
