@@ -72,7 +72,7 @@ ModulatedResponse::ModulatedResponse(HarmonicSystem system, const RingWaves& wav
 }
 
 ModulatedResponse::Balance ModulatedResponse::balance(int highest_k, int highest_l) const {
-  constexpr Index places = 4;  // of theta_2 in a period of the highest l, and as many more
+  constexpr Index places = 16;  // of theta_2 in a period of the highest l, and as many more
   Balance made{
       TwoPhases(lines_up_to(all_odd(system_.orders), highest_k, highest_l), places * (highest_l + 1)),
       {},

@@ -45,13 +45,12 @@ double value(const std::vector<Line>& all, const ComplexVector& x, double first,
 
 /// The same coefficients by samples.
 ComplexVector marched(const std::vector<Line>& all, const ComplexVector& x, double k, double s, double ratio,
-                      int places) {
-  constexpr int samples = 1 << 14;
+                      int places, int settling = 4, int samples = 1 << 14) {
   ComplexVector sum = ComplexVector::Zero(x.size());
   for (int place = 0; place < places; ++place) {
     const double p = two_pi * place / places;
     double slider = 0;
-    for (int i = -4 * samples; i < samples; ++i) {
+    for (int i = -settling * samples; i < samples; ++i) {
       const double theta = two_pi * (i + 0.5) / samples - pi;
       const double at = value(all, x, theta, p + ratio * theta);
       slider = std::clamp(slider, at - s, at + s);
@@ -114,6 +113,19 @@ TEST_CASE("A slider under two frequencies does what it does in time", "[two_phas
       const double more = 0.6 * step;
       CHECK(((at(0.6 + more, ratio) - at(0.6 - more, ratio)) / (2 * step) - found.by_log_load).norm() < 1e-7);
     }
+  }
+}
+
+TEST_CASE("A slider keeps what a beat left it with until the next one moves it", "[two_phases]") {
+  const std::vector<Line> all{{1, -1}, {1, 0}, {1, 1}};
+  const TwoPhases phases(all, 16);
+  ComplexVector x(3);
+  x << Complex(0.5, 0.1), 1, Complex(0.52, 0.02);  // up to 2.0, down to 0.1
+  LineForce found;
+  for (const double ratio : {0.021, 1.979}) {
+    phases.slide(1.7, 0.6, x, ratio, true, found);
+    CHECK((found.force - marched(all, x, 1.7, 0.6, ratio, 16, 60, 1 << 11)).norm() <
+          1e-5 * found.force.norm());
   }
 }
 

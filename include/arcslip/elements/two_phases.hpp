@@ -57,11 +57,28 @@ class TwoPhases {
   double greatest(const ComplexVector& x) const;
 
  private:
-  void slide_force(double threshold, const ComplexVector& x, double ratio, ComplexVector& force) const;
   double share(Index a) const;
+
+  /// The lines of conj(e_a) e_b, or of e_a e_b, of all pairs of lines, each once.
+  class Pairs {
+   public:
+    Pairs(const std::vector<Line>& of, int sign);
+    std::vector<Line> lines;
+
+    /// What a pair has of a value for each of these lines.
+    Complex of(const Eigen::Ref<const ComplexVector>& values, Index a, Index b) const {
+      const int place = places_(a, b);
+      return place < 0 ? std::conj(values(-place - 1)) : values(place - 1);
+    }
+
+   private:
+    Eigen::MatrixXi places_;  // from 1 on, below 0 for its conjugate
+  };
 
   std::vector<Line> lines_;
   Index places_;
+  Pairs differences_;
+  Pairs sums_;
   int most_k_;
   int most_l_;
 };
