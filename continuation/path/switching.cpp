@@ -138,6 +138,16 @@ std::vector<Guess> ways_through(const Problem& problem, Index active, const Bran
   return ways;
 }
 
+/// Without the one along the branch that the point was found on: where rounding moves the point off by its
+/// root it turns the branch's tangent by far more, so that the nearest one is meant.
+void erase_nearest(std::vector<Guess>& ways, const Map& map, const Vector& direction, double turned) {
+  const auto apart = [&](const Guess& way) {
+    return (map.way(way.unknowns, way.parameters, way.direction).direction - direction).norm();
+  };
+  const auto nearest = std::ranges::min_element(ways, {}, apart);
+  if (nearest != ways.end() && apart(*nearest) < turned) ways.erase(nearest);
+}
+
 /// What leaves a special point among the solutions of one problem.
 std::vector<Guess> other_ways_in(const Problem& problem, Index active, const BranchPoint& point,
                                  const Tolerances& tolerances, bool& untold) {
@@ -147,11 +157,10 @@ std::vector<Guess> other_ways_in(const Problem& problem, Index active, const Bra
   } else if (point.type == PointType::regime_switch) {
     ways = leaving_pieces(problem, active, {point.unknowns, point.parameters, point.regime, {}}, tolerances);
   }
-  Map map(problem, active, tolerances);
-  map.pass(point);
-  std::erase_if(ways, [&](const Guess& guess) {
-    return map.gone(map.way(guess.unknowns, guess.parameters, guess.direction));
-  });
+  const Map map(problem, active, tolerances);
+  const double turned = point.type == PointType::branch_point ? 0.02 : tolerances.same_direction;
+  for (const Vector& own : {point.tangent, Vector(-point.arriving())})
+    erase_nearest(ways, map, map.way(point.unknowns, point.parameters, own).direction, turned);
   return ways;
 }
 

@@ -9,24 +9,13 @@
 #include <vector>
 
 #include "arcslip/problems/response/modulated_response.hpp"
-#include "case_runs.hpp"
-#include "case_texts.hpp"
-#include "temporary_folder.hpp"
+#include "cycle_cases.hpp"
 
 namespace arcslip::testing::modulated {
 
 using problems::ModulatedResponse;
 
 namespace {
-
-std::vector<TracedBranch> traced_case(const std::string& text) {
-  const TemporaryFolder folder;
-  std::vector<TracedBranch> all;
-  for (const CaseBranch& request : read_case(folder.write("case.toml", text)).branches) {
-    for (TracedBranch& one : trace(request)) all.push_back(std::move(one));
-  }
-  return all;
-}
 
 std::string rods(const std::string& harmonics, const std::string& branch) {
   return fmt::format(
@@ -146,9 +135,20 @@ double departure(const TracedBranch& traced, const BranchPoint& point, int perio
 
 }  // namespace
 
+TEST_CASE("A modulated wave turns back at one place whatever its steps are", "[modulated]") {
+  for (const double step : {0.02, 0.07}) {
+    INFO(step);
+    const auto all = traced_of(rods("5", "from = 3.5\nto = 3.57\n") +
+                               fmt::format("[continuation]\nmax_step = {}\n", step));
+    REQUIRE(all.size() == 3);
+    check_values(values_at(all[1], PointType::fold, "eta"), {3.5679915}, 1e-6);
+    check_values(values_at(all[2], PointType::fold, "eta"), {3.5659844}, 1e-6);
+  }
+}
+
 TEST_CASE("Modulated waves leave where pairs of exponents cross, and are those of all nodes in time",
           "[modulated][numbers][long]") {
-  const std::vector<TracedBranch> all = traced_case(rods("9", "from = 3.5\nto = 3.57"));
+  const std::vector<TracedBranch> all = traced_of(rods("9", "from = 3.5\nto = 3.57"));
   const std::vector<BranchPoint> crossings = points(all[0], PointType::neimark_sacker);
   REQUIRE(crossings.size() == 2);
   REQUIRE(all.size() == 3);
@@ -175,7 +175,7 @@ TEST_CASE("Modulated waves leave where pairs of exponents cross, and are those o
 TEST_CASE("A modulated wave begins at each pair's crossing, over the preload as well", "[modulated]") {
   const std::string text =
       replaced(rods("3", "from = 0.45\nto = 0.35\neta = 3.57"), "parameter = \"eta\"", "parameter = \"P\"");
-  const std::vector<TracedBranch> all = traced_case(replaced(text, "preload = 0.3\n", ""));
+  const std::vector<TracedBranch> all = traced_of(replaced(text, "preload = 0.3\n", ""));
   const std::vector<BranchPoint> crossings = points(all[0], PointType::neimark_sacker);
   REQUIRE(crossings.size() == 2);
   REQUIRE(all.size() == 3);
@@ -189,9 +189,9 @@ TEST_CASE("A modulated wave begins at each pair's crossing, over the preload as 
 
 TEST_CASE("Where a modulated wave is not followed, its branch says why, once", "[modulated]") {
   const std::vector<TracedBranch> all =
-      traced_case(rods("3",
-                       "from = 3.5\nto = 3.57\n[[element]]\nkind = \"iwan\"\nat = \"base\"\nstiffness = 0.1\n"
-                       "first_limit = 0.01\nspread = 0.02"));
+      traced_of(rods("3",
+                     "from = 3.5\nto = 3.57\n[[element]]\nkind = \"iwan\"\nat = \"base\"\nstiffness = 0.1\n"
+                     "first_limit = 0.01\nspread = 0.02"));
   REQUIRE(count(all[0], PointType::neimark_sacker) == 2);
   REQUIRE(all.size() == 2);
   CHECK(all[1].branch.points.empty());
