@@ -11,6 +11,7 @@
 #include "arcslip/continuation/curves/orbit_curve.hpp"
 #include "arcslip/continuation/cycles/end_of_kind.hpp"
 #include "arcslip/continuation/cycles/mesh_watch.hpp"
+#include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/points/border_problem.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 #include "arcslip/continuation/points/extremum_problem.hpp"
@@ -18,7 +19,6 @@
 #include "arcslip/continuation/points/hopf_problem.hpp"
 #include "arcslip/continuation/points/level_problem.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
-#include "arcslip/continuation/problem/evaluation.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -182,15 +182,6 @@ CurveStart curve_at(const Level& level, const Problem& base, const std::string& 
 
 namespace {
 
-/// Whether the start is a point of the curve that its parameter does not tell, as that stands still there.
-bool is_on_curve(ExtendedProblem& problem, const BasePoint& start, const Guess& guess) {
-  constexpr double hardly = 1e-8;
-  if (!problem.adapt(start)) return false;
-  Vector residual(problem.size());
-  return evaluate(problem, guess.unknowns, guess.parameters, guess.regime, {.residual = &residual}) &&
-         residual.lpNorm<Eigen::Infinity>() <= hardly;
-}
-
 /// From where it begins along its direction, or through a special point both ways.
 Branch trace_from(ExtendedProblem& problem, const BasePoint& start, const Vector& direction,
                   const TraceOptions& options, const CurveWindow& window, const OrbitOptions& orbits,
@@ -202,7 +193,7 @@ Branch trace_from(ExtendedProblem& problem, const BasePoint& start, const Vector
     const auto located = locate(problem, start, options.tolerance);
     if (located) {
       problem.join(located->point, guess.unknowns, guess.parameters);
-    } else if (!is_on_curve(problem, start, guess)) {
+    } else if (!problem.adapt(start) || !nearly_solves(problem, guess)) {  // else its parameter stands still
       Branch none;
       none.explanation = "no special point of this kind was found next to the start";
       return none;

@@ -31,14 +31,6 @@ bool has_stood(const StepSearch& search) {
 /// Whether the step begins on a fold.
 bool has_turned(const StepSearch& search) { return search.signs.parameter * way_here(search) < 0; }
 
-/// Whether the parameter moves by no more than two values that are one, at rates that may be rounding.
-bool stands_still(const StepSearch& search, double rate) {
-  constexpr double rounding_of_differences = 1e-7;  // which derivatives of curves of special points are
-  const Step& step = search.stepper.step();
-  const double most = std::max(std::abs(step.parameter_rate_from()), std::abs(rate));
-  return most < rounding_of_differences && most * step.distance < search.tolerances.same_value;
-}
-
 /// Two in one step, the second of which turns the parameter back, show in how far it has come; but from where
 /// the branch turns itself, as at a pitchfork, the way there is not told by a slope. A parameter that has
 /// stood still but for rounding has turned where it moves again; of one that turns on a fold again nothing
@@ -47,9 +39,7 @@ void search_folds(StepSearch& step) {
   if (step.stepper.is_regular()) return;
   const int before = step.signs.parameter;
   const double rate = step.at_upper(Readings::rate, step.stepper.step().parameter_rate_to());
-  const int after = stands_still(step, rate) ? 0
-                    : step.is_whole()        ? sign_of_rate(step.stepper, rate)
-                                             : sign_of(rate);
+  const int after = step.is_whole() ? sign_of_rate(step.stepper, rate) : sign_of(rate);
   const bool turns = before * after < 0 || (before * after > 0 && step.stepper.step().may_turn_twice());
   if (before * after < 0 && has_stood(step)) {
     step.note(folds, PointType::fold, 0, Zero{Zero::State::found, 0});

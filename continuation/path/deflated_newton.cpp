@@ -114,6 +114,13 @@ double DeflatedNewton::part_of_correction(const Vector& u, const Guess& guess, d
   return 0;
 }
 
+bool nearly_solves(const Problem& problem, const Guess& guess) {
+  constexpr double hardly = 1e-8;
+  Vector residual(problem.size());
+  return evaluate(problem, guess.unknowns, guess.parameters, guess.regime, {.residual = &residual}) &&
+         residual.lpNorm<Eigen::Infinity>() <= hardly;
+}
+
 Solution solve(const Problem& problem, const Guess& guess, const NewtonOptions& options) {
   return DeflatedNewton(problem, options).run(guess, {});
 }

@@ -34,8 +34,14 @@ void Tracer::start(const Guess& guess, double forward) {
     return result == Correction::converged ? stepper_.starts_singular()
                                            : result != Correction::cannot_evaluate;
   };
-  if (is_free && may_be_singular() && start_singular(guess, forward) == Correction::converged)
-    result = Correction::converged;
+  if (is_free && may_be_singular()) {
+    const bool is_found = result == Correction::converged;
+    if (start_singular(guess, forward, is_found) == Correction::converged) {
+      result = Correction::converged;
+    } else if (is_found) {
+      result = stepper_.start(guess.unknowns, guess.parameters, guess.regime, forward);
+    }
+  }
   if (is_free && result != Correction::converged && start_from_afar(guess, forward))
     result = Correction::converged;
   if (result != Correction::converged) {
@@ -128,7 +134,7 @@ bool Tracer::start_from_afar(const Guess& guess, double forward) {
 
 /// A start on a fold or on a branch point, or where the parameter stands still along the whole branch, where
 /// it does not determine the solution.
-Correction Tracer::start_singular(const Guess& guess, double forward) {
+Correction Tracer::start_singular(const Guess& guess, double forward, bool is_found) {
   const BasePoint near{guess.unknowns, guess.parameters, guess.regime, {}};
   const auto is_there = [&](const BasePoint& point) {
     return std::abs(point.parameters(parameter_) - guess.parameters(parameter_)) <=
@@ -154,15 +160,13 @@ Correction Tracer::start_singular(const Guess& guess, double forward) {
   FoldProblem fold(problem_, parameter_);
   auto located = locate(fold, near, corrector_.tolerance());
   if (located && !is_there(located->point)) located.reset();
-  const bool is_adapted = located || fold.adapt(near);
+  const bool is_known = located || (!is_found && nearly_solves(problem_, guess) && fold.adapt(near));
   evaluations += fold.evaluations();
-  if (!is_adapted) return Correction::singular;
+  if (!is_known) return Correction::singular;
   const BasePoint& there = located ? located->point : near;
   Vector direction = Vector::Zero(corrector_.size() + 1);
   direction.head(corrector_.size()) = forward * fold.right_null();
-  const Correction result = stepper_.start_along(there.unknowns, there.parameters, guess.regime, direction);
-  const BasePoint begins{{}, stepper_.here().parameters, {}, {}};
-  return is_there(begins) || result != Correction::converged ? result : Correction::singular;
+  return stepper_.start_along(there.unknowns, there.parameters, guess.regime, direction);
 }
 
 }  // namespace arcslip::continuation

@@ -29,6 +29,9 @@ struct NewtonOptions {
   std::function<void()> watch = {};  ///< called before each correction; what it throws ends the work
 };
 
+/// Whether a guess solves F = 0 but for what the root of rounding leaves.
+bool nearly_solves(const Problem& problem, const Guess& guess);
+
 /// Newton's method from a guess, with the full exact Jacobian.
 Solution solve(const Problem& problem, const Guess& guess, const NewtonOptions& options = {});
 

@@ -45,7 +45,7 @@ class Tracer {
   bool is_time_to_look(PointType type);
   BranchIdentity identity() const;
   void require_same(const Progress& progress) const;
-  Correction start_singular(const Guess& guess, double forward);
+  Correction start_singular(const Guess& guess, double forward, bool is_found);
   bool start_from_afar(const Guess& guess, double forward);
   void set_signs_of_zeros(bool is_ahead, bool is_only);
   bool out_of_time() const;
