@@ -71,9 +71,11 @@ ComplexVector CycleProblem::found_multipliers(const Vector& u, const Vector& p, 
   return on_intervals(u, p, regime, unknowns)->found_multipliers(unknowns, p, {});
 }
 
-ComplexVector CycleProblem::multipliers_by(const Vector& u, const Vector& p,
+ComplexVector CycleProblem::multipliers_by(const Vector& u, const Vector& p, const Regime& regime,
                                            const FactoredJacobian& jacobian) const {
   constexpr Index count = 20;
+  if (has_duration() && field().size() == 2)
+    return ComplexVector::Constant(1, growth_of_areas(frame(regime), jacobian.entries));
   Matrix velocities;
   if (has_duration() && !find_velocities(u, p, velocities)) return {};
   if (field().sparse())
@@ -82,6 +84,24 @@ ComplexVector CycleProblem::multipliers_by(const Vector& u, const Vector& p,
   const std::vector<Matrix> factors = transfers(jacobian);
   return has_duration() ? log_multipliers_beside(factors, velocities)
                         : continuation::log_multipliers(factors);
+}
+
+/// The logarithm of what an area grows by in a round, T times the mean of the trace of df/du [J. Liouville,
+/// J. Math. Pures Appl. 3 (1838) 342]: in the plane that of the multiplier, which is positive, over any
+/// number of decades. Of changes that are the same all along, of one unknown at a time, equations of
+/// collocation have this alone.
+double CycleProblem::growth_of_areas(const OrbitFrame& frame, const SparseMatrix& jacobian) const {
+  const Index n = field().size();
+  const Index m = degree();
+  double sum = 0;
+  for (Index r = 0; r < n; ++r) {
+    Vector change = Vector::Zero(jacobian.cols());
+    for (Index node = 0; node < nodes(); ++node) change(node * n + r) = 1;
+    const Vector left = jacobian * change;
+    for (Index point = 0; point < intervals() * m; ++point)
+      sum -= frame.mesh.rule().weights()(point % m) * left((point + 1) * n + r) / frame.in_units(r);
+  }
+  return sum;
 }
 
 bool CycleProblem::find_velocities(const Vector& u, const Vector& p, Matrix& out) const {

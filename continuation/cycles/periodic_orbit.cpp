@@ -46,7 +46,7 @@ ComplexVector PeriodicOrbit::log_multipliers(const Vector& u, const Vector& p, c
 
 void PeriodicOrbit::take_jacobian(const Vector& u, const Vector& p, const Regime& regime,
                                   const FactoredJacobian& jacobian) const {
-  if (!is_last(u, p, regime)) last() = {number_, u, p, regime, multipliers_by(u, p, jacobian)};
+  if (!is_last(u, p, regime)) last() = {number_, u, p, regime, multipliers_by(u, p, regime, jacobian)};
 }
 
 ComplexVector PeriodicOrbit::found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const {
@@ -54,7 +54,7 @@ ComplexVector PeriodicOrbit::found_multipliers(const Vector& u, const Vector& p,
   Evaluation out;
   out.sparse_jacobian = &jacobian;
   if (!evaluate(u, p, regime, out)) return {};
-  return multipliers_by(u, p, {jacobian});
+  return multipliers_by(u, p, regime, {jacobian});
 }
 
 bool PeriodicOrbit::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,

@@ -189,7 +189,7 @@ bool PiecewiseCycle::end_conditions(const Vector& left, const Vector& right, con
 }
 
 /// In coordinates on the border that a piece ends on.
-ComplexVector PiecewiseCycle::multipliers_by(const Vector& u, const Vector& p,
+ComplexVector PiecewiseCycle::multipliers_by(const Vector& u, const Vector& p, const Regime& /*regime*/,
                                              const FactoredJacobian& jacobian) const {
   if (n_ == 1) return ComplexVector(0);
   const std::vector<Matrix> all = transfers(jacobian);

@@ -34,14 +34,9 @@ void Tracer::start(const Guess& guess, double forward) {
     return result == Correction::converged ? stepper_.starts_singular()
                                            : result != Correction::cannot_evaluate;
   };
-  if (is_free && may_be_singular()) {
-    const bool is_found = result == Correction::converged;
-    if (start_singular(guess, forward, is_found) == Correction::converged) {
-      result = Correction::converged;
-    } else if (is_found) {
-      result = stepper_.start(guess.unknowns, guess.parameters, guess.regime, forward);
-    }
-  }
+  if (is_free && may_be_singular() &&
+      start_singular(guess, forward, result == Correction::converged) == Correction::converged)
+    result = Correction::converged;
   if (is_free && result != Correction::converged && start_from_afar(guess, forward))
     result = Correction::converged;
   if (result != Correction::converged) {
@@ -140,6 +135,11 @@ Correction Tracer::start_singular(const Guess& guess, double forward, bool is_fo
     return std::abs(point.parameters(parameter_) - guess.parameters(parameter_)) <=
            options_.tolerances.start_moves * std::max(1.0, std::abs(guess.parameters(parameter_)));
   };
+  const auto along = [&](const BasePoint& from, const Vector& direction) {
+    const Correction result = stepper_.start_along(from.unknowns, from.parameters, guess.regime, direction);
+    if (result == Correction::converged || !is_found) return result;
+    return stepper_.start(guess.unknowns, guess.parameters, guess.regime, forward);
+  };
   BasePoint unfolded = near;
   unfolded.extras = Vector::Zero(1);
   long& evaluations = corrector_.work().evaluations;
@@ -153,8 +153,7 @@ Correction Tracer::start_singular(const Guess& guess, double forward, bool is_fo
     if (form) evaluations += form->evaluations;
     if (form && form->directions[0].size() > 0) {
       const double rate = form->directions[0](corrector_.size());
-      return stepper_.start_along(at.unknowns, at.parameters, guess.regime,
-                                  (rate != 0 ? std::copysign(1.0, rate) : 1) * forward * form->directions[0]);
+      return along(there, (rate != 0 ? std::copysign(1.0, rate) : 1) * forward * form->directions[0]);
     }
   }
   FoldProblem fold(problem_, parameter_);
@@ -166,7 +165,7 @@ Correction Tracer::start_singular(const Guess& guess, double forward, bool is_fo
   const BasePoint& there = located ? located->point : near;
   Vector direction = Vector::Zero(corrector_.size() + 1);
   direction.head(corrector_.size()) = forward * fold.right_null();
-  return stepper_.start_along(there.unknowns, there.parameters, guess.regime, direction);
+  return along(there, direction);
 }
 
 }  // namespace arcslip::continuation

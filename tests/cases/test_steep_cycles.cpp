@@ -233,3 +233,30 @@ doublings = 0
   REQUIRE(folds.size() >= 4);
   CHECK_THAT(folds.end()[-1] + folds.end()[-2], WithinAbs(5.2586262 + 5.2858987, 1e-4));
 }
+
+TEST_CASE("What decays by decades within an interval has its multiplier in the plane", "[cycles]") {
+  // r' = 1000 r (mu - r^2), turning once in 2 pi
+  const auto all = cycles_of(traced_of(R"case([model.parameters]
+mu = -0.1
+[model.definitions]
+g = "1000*(mu - x^2 - y^2)"
+[model.equations]
+x = "g*x - y"
+y = "x + g*y"
+[branch]
+parameter = "mu"
+from = -0.1
+to = 1
+switching = true
+)case"));
+  REQUIRE(all.size() == 1);
+  CHECK(values_at(all[0], PointType::period_doubling, "mu").empty());
+  for (const BranchPoint& point : all[0].branch.points) {
+    const ComplexVector logs = cycles(all[0])->log_multipliers(point.unknowns, point.parameters, point.regime);
+    REQUIRE(logs.size() == 1);
+    CHECK(logs(0).imag() == 0);
+    const double mu = value(all[0], point, "mu");
+    CHECK_THAT(logs(0).real(), WithinAbs(-4e3 * pi * mu, 1e-4 * (1 + 4e3 * pi * mu)));
+    CHECK(point.unstable == 0);
+  }
+}

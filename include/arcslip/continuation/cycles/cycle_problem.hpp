@@ -58,10 +58,11 @@ class CycleProblem : public PeriodicOrbit {
 
   /// Of sparse fields those of the largest.
   ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const override;
-  ComplexVector multipliers_by(const Vector& u, const Vector& p,
+  ComplexVector multipliers_by(const Vector& u, const Vector& p, const Regime& regime,
                                const FactoredJacobian& jacobian) const override;
 
  private:
+  double growth_of_areas(const OrbitFrame& frame, const SparseMatrix& jacobian) const;
   /// At the ends of intervals, n x (N + 1).
   [[nodiscard]] bool find_velocities(const Vector& u, const Vector& p, Matrix& out) const;
 

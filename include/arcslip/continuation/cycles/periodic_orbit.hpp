@@ -53,7 +53,7 @@ class PeriodicOrbit : public OrbitProblem {
 
   virtual ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
   /// The same on intervals, by the Jacobian there.
-  virtual ComplexVector multipliers_by(const Vector& u, const Vector& p,
+  virtual ComplexVector multipliers_by(const Vector& u, const Vector& p, const Regime& regime,
                                        const FactoredJacobian& jacobian) const = 0;
   /// How many there may be.
   virtual Index most_multipliers() const { return field().size() - (has_duration() ? 1 : 0); }

@@ -100,7 +100,7 @@ class PiecewiseCycle : public PeriodicOrbit {
                                     const EndConditions& out) const override;
   Matrix part_apart(const OrbitFrame& frame, const Eigen::Ref<const Matrix>& orbit) const override;
   double given_duration(const Vector& p, Vector* by_parameters) const override;
-  ComplexVector multipliers_by(const Vector& u, const Vector& p,
+  ComplexVector multipliers_by(const Vector& u, const Vector& p, const Regime& regime,
                                const FactoredJacobian& jacobian) const override;
   Index most_multipliers() const override { return n_ - 1; }
 
