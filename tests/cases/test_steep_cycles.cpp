@@ -252,7 +252,8 @@ switching = true
   REQUIRE(all.size() == 1);
   CHECK(values_at(all[0], PointType::period_doubling, "mu").empty());
   for (const BranchPoint& point : all[0].branch.points) {
-    const ComplexVector logs = cycles(all[0])->log_multipliers(point.unknowns, point.parameters, point.regime);
+    const ComplexVector logs =
+        cycles(all[0])->log_multipliers(point.unknowns, point.parameters, point.regime);
     REQUIRE(logs.size() == 1);
     CHECK(logs(0).imag() == 0);
     const double mu = value(all[0], point, "mu");
