@@ -60,6 +60,35 @@ class ArcMeans {
   ComplexVector rate;
 };
 
+/// The real sum of lines at theta_1, and its derivative by s/w.
+std::pair<double, double> value_at(double theta, const std::vector<Line>& lines,
+                                   const ComplexVector& turned) {
+  double rate = 0;
+  for (Index b = 0; b < turned.size(); ++b)
+    rate -= theta * lines[static_cast<std::size_t>(b)].l * turned(b).imag();
+  return {turned.real().sum(), rate};
+}
+
+/// Means of conj(e_a) e_b and of conj(e_a e_b), less those of conj(e_a) times e_b, or its conjugate, at
+/// anchors.
+template <class Pairs>
+void fill_derivatives(const Pairs& differences, const ComplexVector& of_differences, const Pairs& sums,
+                      const ComplexVector& of_sums, const std::vector<Complex>& means,
+                      const std::vector<Complex>& anchors, LineForce& out) {
+  const Index n = out.force.size();
+  const Index arcs = std::ssize(means) / n;
+  const Eigen::Map<const ComplexMatrix> mean(means.data(), n, arcs);
+  const Eigen::Map<const ComplexMatrix> anchor(anchors.data(), n, arcs);
+  out.linear.noalias() = -mean * anchor.transpose();
+  out.conjugate.noalias() = -mean * anchor.adjoint();
+  for (Index a = 0; a < n; ++a) {
+    for (Index b = 0; b < n; ++b) {
+      out.linear(a, b) += differences.of(of_differences, a, b);
+      out.conjugate(a, b) += std::conj(sums.of(of_sums, a, b));
+    }
+  }
+}
+
 }  // namespace
 
 TwoPhases::TwoPhases(std::vector<Line> lines, Index places)
@@ -132,13 +161,7 @@ void TwoPhases::slide(double stiffness, double threshold, const ComplexVector& x
       of_sums.col(1) += sum.rate;
       if (arc.direction == 0) continue;
       turns.set(arc.anchor, p + ratio * arc.anchor, at_anchor);
-      double value = 0;  // of x at the anchor
-      double rate = 0;   // by s/w
-      for (Index b = 0; b < n; ++b) {
-        const Complex turned = x(b) * at_anchor(b);
-        value += turned.real();
-        rate -= arc.anchor * lines_[static_cast<std::size_t>(b)].l * turned.imag();
-      }
+      const auto [value, rate] = value_at(arc.anchor, lines_, x.cwiseProduct(at_anchor));
       held.col(0) += value * one.value.conjugate();
       held.col(1) += rate * one.value.conjugate() + value * one.rate.conjugate();
       if (!derivatives) continue;
@@ -163,17 +186,7 @@ void TwoPhases::slide(double stiffness, double threshold, const ComplexVector& x
   for (Index a = 0; a < n; ++a) shares(a) = stiffness * share(a);
   for (ComplexVector* rows : {&out.force, &out.by_ratio, &out.by_log_load}) rows->array() *= shares.array();
   if (!derivatives) return;
-  const auto arcs = std::ssize(means) / n;
-  const Eigen::Map<const ComplexMatrix> mean(means.data(), n, arcs);
-  const Eigen::Map<const ComplexMatrix> anchor(anchors.data(), n, arcs);
-  out.linear.noalias() = -mean * anchor.transpose();
-  out.conjugate.noalias() = -mean * anchor.adjoint();
-  for (Index a = 0; a < n; ++a) {
-    for (Index b = 0; b < n; ++b) {
-      out.linear(a, b) += differences_.of(of_differences.col(0), a, b);
-      out.conjugate(a, b) += std::conj(sums_.of(of_sums.col(0), a, b));
-    }
-  }
+  fill_derivatives(differences_, of_differences.col(0), sums_, of_sums.col(0), means, anchors, out);
   out.linear = 0.5 * shares.asDiagonal() * out.linear;
   out.conjugate = 0.5 * shares.asDiagonal() * out.conjugate;
 }
