@@ -20,10 +20,25 @@ std::vector<TracedBranch> of_cycles(std::vector<TracedBranch> all) {
 }
 
 /// The Hopf points over two parameters and what begins on them.
+std::vector<TracedBranch> with_hopf_points(const std::string& equations, const std::string& parameters,
+                                           const std::string& range) {
+  return traced_of("[model.parameters]\n" + parameters + "[model.equations]\n" + equations +
+                   "[branch]\ncurve = \"hopf\"\nswitching = true\n" + range);
+}
+
+/// The latter alone.
 std::vector<TracedBranch> from_hopf_points(const std::string& equations, const std::string& parameters,
                                            const std::string& range) {
-  return of_cycles(traced_of("[model.parameters]\n" + parameters + "[model.equations]\n" + equations +
-                             "[branch]\ncurve = \"hopf\"\nswitching = true\n" + range));
+  return of_cycles(with_hopf_points(equations, parameters, range));
+}
+
+/// r_1' = (m - r_1^2 - r_2^2/2) r_1, r_2' = (k - 1.5 r_1^2 - r_2^2) r_2, which turn at these rates.
+std::string double_hopf(const std::string& first, const std::string& second) {
+  const std::string g = "(m - x^2 - y^2 - (z^2 + w^2)/2)";
+  const std::string h = "(k - 1.5*(x^2 + y^2) - z^2 - w^2)";
+  return fmt::format(
+      "x = \"{0}*x - {2}*y\"\ny = \"{2}*x + {0}*y\"\nz = \"{1}*z - {3}*w\"\nw = \"{3}*z + {1}*w\"\n", g, h,
+      first, second);
 }
 
 /// Whether a point of a curve is where an exact one has it.
@@ -92,13 +107,9 @@ TEST_CASE("Folds of cycles are followed from generalised Hopf points", "[cycles]
 }
 
 TEST_CASE("Neimark-Sacker points are followed from double Hopf points", "[cycles]") {
-  // r_1' = (m - r_1^2 - r_2^2/2) r_1, r_2' = (k - 1.5 r_1^2 - r_2^2) r_2: those of the first cycle at k = 1.5
-  // m, of the second at m = k/2
-  const auto curves = from_hopf_points(
-      "x = \"(m - x^2 - y^2 - (z^2 + w^2)/2)*x - y\"\ny = \"x + (m - x^2 - y^2 - (z^2 + w^2)/2)*y\"\n"
-      "z = \"(k - 1.5*(x^2 + y^2) - z^2 - w^2)*z - sqrt(2)*w\"\n"
-      "w = \"sqrt(2)*z + (k - 1.5*(x^2 + y^2) - z^2 - w^2)*w\"\n",
-      "m = 0\nk = 0.5\n", "parameters = [\"m\", \"k\"]\nwindow = [-1, 1]\nfrom = -1\nto = 1\n");
+  // those of the first cycle at k = 1.5 m, of the second at m = k/2
+  const auto curves = from_hopf_points(double_hopf("1", "sqrt(2)"), "m = 0\nk = 0.5\n",
+                                       "parameters = [\"m\", \"k\"]\nwindow = [-1, 1]\nfrom = -1\nto = 1\n");
   REQUIRE(curves.size() == 2);
   for (const TracedBranch& tori : curves) {
     const bool is_first = value(tori, tori.branch.points.back(), "x_max") > 0.1;
@@ -140,22 +151,9 @@ TEST_CASE("Neimark-Sacker points are followed from zero-Hopf points that have th
 
 TEST_CASE("Curves are followed on which the second parameter stands still", "[cycles]") {
   // pairs on the axis at m = 0 and at k = 0
-  const auto curves = traced_of(R"case([model.parameters]
-m = -0.5
-k = -0.2
-[model.equations]
-x = "(m - x^2 - y^2 - (z^2 + w^2)/2)*x - 2.7*y"
-y = "2.7*x + (m - x^2 - y^2 - (z^2 + w^2)/2)*y"
-z = "(k - 1.5*(x^2 + y^2) - z^2 - w^2)*z - w"
-w = "z + (k - 1.5*(x^2 + y^2) - z^2 - w^2)*w"
-[branch]
-curve = "hopf"
-parameters = ["m", "k"]
-window = [-0.5, 0.4]
-from = -0.3
-to = 0.3
-switching = true
-)case");
+  const auto curves =
+      with_hopf_points(double_hopf("2.7", "1"), "m = -0.5\nk = -0.2\n",
+                       "parameters = [\"m\", \"k\"]\nwindow = [-0.5, 0.4]\nfrom = -0.3\nto = 0.3\n");
   REQUIRE(curves.size() == 4);
   const TracedBranch& other = curves[1];
   CHECK(other.branch.complete());
