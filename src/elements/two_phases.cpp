@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <map>
 
 #include "elements/slider_arcs.hpp"
@@ -15,12 +14,12 @@ namespace {
 class ArcMeans {
  public:
   ArcMeans(const std::vector<Line>& lines, double ratio)
-      : lines_(lines),
+      : value(std::ssize(lines)),
+        rate(value.size()),
+        lines_(lines),
         ratio_(ratio),
         q_(frequencies(lines, ratio)),
-        turns_(lines),
-        value(q_.size()),
-        rate(q_.size()) {}
+        turns_(lines) {}
 
   /// On the line theta_2 = p + (s/w) theta_1.
   void set(const SliderArc& arc, double p) {
@@ -28,6 +27,9 @@ class ArcMeans {
     turns_.set(arc.end, p + ratio_ * arc.end, at_end_);
     for (Index i = 0; i < q_.size(); ++i) set_one(i, arc.begin, arc.end, p);
   }
+
+  ComplexVector value;
+  ComplexVector rate;
 
  private:
   void set_one(Index i, double a, double b, double p) {
@@ -54,10 +56,6 @@ class ArcMeans {
   LineTurns turns_;
   ComplexVector at_begin_;
   ComplexVector at_end_;
-
- public:
-  ComplexVector value;
-  ComplexVector rate;
 };
 
 /// The real sum of lines at theta_1, and its derivative by s/w.
