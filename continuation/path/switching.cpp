@@ -38,13 +38,13 @@ class Map {
     problem_.scale(unknowns, parameters, scale, parameter_scale);
     Vector all(n + 1);
     all << scale * std::sqrt(static_cast<double>(n)), parameter_scale(parameter_);
-    Way result;
-    result.place.resize(n + 1);
+    Way result{Vector(n + 1), direction.cwiseQuotient(all).normalized()};
     result.place << unknowns, parameters(parameter_);
     result.place = result.place.cwiseQuotient(all);
-    result.direction = direction.cwiseQuotient(all).normalized();
     return result;
   }
+
+  Way way(const Guess& guess) const { return way(guess.unknowns, guess.parameters, guess.direction); }
 
   bool gone(const Way& way) const {
     return std::any_of(gone_.begin(), gone_.end(), [&](const Way& other) {
@@ -138,17 +138,8 @@ std::vector<Guess> ways_through(const Problem& problem, Index active, const Bran
   return ways;
 }
 
-/// Without the one along the branch that the point was found on: where rounding moves the point off by its
-/// root it turns the branch's tangent by far more, so that the nearest one is meant.
-void erase_nearest(std::vector<Guess>& ways, const Map& map, const Vector& direction, double turned) {
-  const auto apart = [&](const Guess& way) {
-    return (map.way(way.unknowns, way.parameters, way.direction).direction - direction).norm();
-  };
-  const auto nearest = std::ranges::min_element(ways, {}, apart);
-  if (nearest != ways.end() && apart(*nearest) < turned) ways.erase(nearest);
-}
-
-/// What leaves a special point among the solutions of one problem.
+/// What leaves a special point among the solutions of one problem, without its own branch: where rounding
+/// moves the point off by its root it turns that one's tangent by far more, so that the nearest way is meant.
 std::vector<Guess> other_ways_in(const Problem& problem, Index active, const BranchPoint& point,
                                  const Tolerances& tolerances, bool& untold) {
   std::vector<Guess> ways;
@@ -159,8 +150,12 @@ std::vector<Guess> other_ways_in(const Problem& problem, Index active, const Bra
   }
   const Map map(problem, active, tolerances);
   const double turned = point.type == PointType::branch_point ? 0.02 : tolerances.same_direction;
-  for (const Vector& own : {point.tangent, Vector(-point.arriving())})
-    erase_nearest(ways, map, map.way(point.unknowns, point.parameters, own).direction, turned);
+  for (const Vector& own : {point.tangent, Vector(-point.arriving())}) {
+    const Vector direction = map.way(point.unknowns, point.parameters, own).direction;
+    const auto apart = [&](const Guess& way) { return (map.way(way).direction - direction).norm(); };
+    const auto nearest = std::ranges::min_element(ways, {}, apart);
+    if (nearest != ways.end() && apart(*nearest) < turned) ways.erase(nearest);
+  }
   return ways;
 }
 
@@ -286,7 +281,7 @@ class Network {
         branches_.back().warn(more_branches(branches_.size(), options_.parameter, next.parameters(active_)));
         break;
       }
-      map_.go(map_.way(next.unknowns, next.parameters, next.direction));
+      map_.go(map_.way(next));
       follow(next);
     }
     return std::move(branches_);
@@ -311,7 +306,7 @@ class Network {
     std::optional<Way> best;
     bool untold = false;
     for (const Guess& guess : ways_through(within, active_, point, options_.tolerances, untold)) {
-      Way way = map_.way(guess.unknowns, guess.parameters, guess.direction);
+      Way way = map_.way(guess);
       const Way arrival = map_.way(guess.unknowns, guess.parameters, point.arriving());
       const double along = std::abs(way.direction.dot(arrival.direction));
       if (along < straightest) continue;
