@@ -21,7 +21,10 @@ std::string shown(const toml::node& node) {
   if (const toml::array* array = node.as_array()) return array->empty() ? "an empty array" : "an array";
   if (const auto* value = node.as_string())
     return fmt::format("\"{}\"", printable(value->get(), longest_text));
-  if (const auto* value = node.as_floating_point()) return fmt::format("{}", value->get());
+  if (const auto* value = node.as_floating_point()) {
+    const std::string digits = fmt::format("{}", value->get());
+    return digits.find_first_not_of("-0123456789") == std::string::npos ? digits + ".0" : digits;
+  }
   std::ostringstream out;
   node.visit([&](const auto& value) { out << value; });
   return out.str();

@@ -98,6 +98,7 @@ TEST_CASE("Wrong input is refused in one line with place, key, what was expected
        "got inf"},
       {"elements = 30", "elements = 4", ":5:12", "system.elements", "> 2 wave_number = 4", "got 4"},
       {"elements = 30", "elements = 30.5", ":5:12", "system.elements", "an integer", "got 30.5"},
+      {"elements = 30", "elements = 30.0", ":5:12", "system.elements", "an integer", "got 30.0"},
       {"wave_number = 2", "wave_number = 0", ":4:15", "system.wave_number", "an integer >= 1", "got 0"},
       {"model = \"beams\"", "model = \"plates\"", ":3:9", "system.model",
        R"("rods" or "beams" or "sector" or "spring_mass")", "got \"plates\""},
