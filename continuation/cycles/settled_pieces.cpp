@@ -68,6 +68,7 @@ class PieceMotion {
           length = std::isfinite(length) ? 0.1 * length : first_step(way) * std::pow(0.1, tries);
           state_ = last;
           time = begun;
+          stepper.reset();  // it begins with the slope at the end of the last step
         }
       }
       double after = level(state_);
@@ -75,6 +76,7 @@ class PieceMotion {
         odeint::runge_kutta_dopri5<State> again;
         State there(count);
         const auto at = [&](double step) {
+          again.reset();
           again.do_step(f, last, begun, there, step);
           return level(there);
         };

@@ -80,6 +80,26 @@ TEST_CASE("An oscillator that hits a wall does so as in closed form", "[cycles][
   }
 }
 
+TEST_CASE("A ball on a shaking table comes to its bounce whichever way it is dropped", "[cycles][pieces]") {
+  const std::string ball =
+      "[model]\nkind = \"piecewise\"\nperiod = \"2*pi\"\nparameters = { g = 0.6, r = 0.8 }\n"
+      "equations = { x = \"v\", v = \"-1\" }\n"
+      "[model.pieces.fly]\nuntil = \"x - g*sin(t)\"\nreset = { v = \"-r*v + (1 + r)*g*cos(t)\" }\n"
+      "[branch]\nparameter = \"g\"\nfrom = 0.6\nto = 0.62\n";
+  for (const auto& [x, v] : {std::pair("3.0", "-2.2"), std::pair("2.9", "-2.0")}) {
+    for (const char* settle : {"100", "150"}) {
+      CAPTURE(x, v, settle);
+      const auto all = traced_of(
+          fmt::format("{}[model.start]\nx = {}\nv = {}\n[cycles]\nsettle = {}\n", ball, x, v, settle));
+      REQUIRE(all.size() == 1);
+      const BranchPoint& first = all[0].branch.points.front();
+      const Matrix orbit = orbits_of(all[0])->told_orbit(first.unknowns);
+      CHECK_THAT(orbit(1, 0), WithinAbs(pi, 1e-8));
+      CHECK_THAT(orbit(1, orbit.cols() - 1), WithinAbs(-pi, 1e-8));
+    }
+  }
+}
+
 TEST_CASE("A mass on a belt sticks and slips as in closed form until it slides", "[cycles][pieces]") {
   const auto all = Run("stick_slip", {"cycles.degree=7", "cycles.tolerance=1e-9"}).traced;
   REQUIRE(all.size() == 1);
