@@ -233,9 +233,11 @@ bool CrossingSearch::take(const RemoteZero& zero, double sign_behind) {
   Step::Crossing crossing{zero.s, step_.here, Vector::Zero(n + 1)};
   expected_.setZero();
   std::array<double, RemoteZero::count> parameters{};
+  double other_rate = 0;
   for (std::size_t i = 0; i < RemoteZero::count; ++i) {
     step_.interpolate(zero.places[i], work_);  // all of them are points of the branch
     parameters[i] = work_(n);
+    other_rate += zero.other_slopes[i] * work_(n);
     expected_ += zero.weights[i] * work_;
     crossing.slope += zero.slopes[i] * work_;
   }
@@ -250,7 +252,10 @@ bool CrossingSearch::take(const RemoteZero& zero, double sign_behind) {
   double around = 0;
   for (std::size_t i = 0; i < RemoteZero::count; ++i)
     around = std::max(around, std::abs((parameters[i] - expected_(n)) / (zero.places[i] - zero.s)));
-  if (std::abs(rate) <= tolerances_.turns * around) rate = 0;
+  // What rounding or a mesh adds to the equations moves the parameter by k/x a way x off: the rates of both
+  // polynomials differ by k over the square of their radius. Up to about x^3 = k/bend rates are such errors.
+  const double lost = 0.5 * std::cbrt(around * around * std::abs(rate - other_rate));
+  if (std::abs(rate) <= std::max(tolerances_.turns * around, lost)) rate = 0;
   crossing.rate_behind = rate != 0                       ? rate
                          : behind != step_.anchors.end() ? behind->slope(n)
                                                          : step_.slope_to(n);

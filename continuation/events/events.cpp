@@ -83,7 +83,14 @@ double StepSearch::at_upper(std::size_t which, double end) {
   return is_whole() ? end : readings.value(which, upper_).value_or(0);
 }
 
-Zero StepSearch::turn(std::size_t which, int sign, bool changes) {
+double StepSearch::beside_start() const {
+  constexpr double most = 0.1;  // of the step
+  const Step& step = stepper.step();
+  const bool is_pitchfork = std::isinf(step.here.log_determinant) && step.parameter_rate_from() == 0;
+  return is_pitchfork ? std::min(std::cbrt(stepper.tolerance()), most * upper_) : 0;
+}
+
+Zero StepSearch::turn(std::size_t which, int sign, bool changes, double from) {
   constexpr double plainly = 10;  // times what it falls by to a zero that it passes straight: its value
   bool at_cusp = false;
   if (has(PointType::cusp)) {
@@ -96,7 +103,7 @@ Zero StepSearch::turn(std::size_t which, int sign, bool changes) {
   }
   if (!changes && !at_cusp) return {Zero::State::absent};
   const Zero zero = ZeroSearch(stepper, readings)
-                        .first(which, sign, 0, upper_,
+                        .first(which, sign, from, upper_,
                                at_cusp ? std::numeric_limits<double>::infinity() : tolerances.located);
   return at_cusp && zero.state == Zero::State::absent ? Zero{Zero::State::found, upper_} : zero;
 }

@@ -98,6 +98,7 @@ std::optional<RemoteZero> remote_zero(const std::function<std::optional<double>(
                 (range.multiplicity == 1 || is_straight(zero.places, values, zero.s));
   zero.weights = weights(zero.places, zero.s, false);
   zero.slopes = weights(zero.places, zero.s, true);
+  zero.other_slopes = weights(zero.places, zero.s, true, 1, count - 1);
   return zero;
 }
 

@@ -9,6 +9,20 @@ using namespace arcslip::testing;
 
 std::string with_steps(double longest) { return fmt::format("[continuation]\nmax_step = {}\n", longest); }
 
+/// That a branch without symmetry passes the pitchfork at which it gains it, on to its mirror image.
+void check_passes(const std::string& system, std::initializer_list<double> steps,
+                  const std::string& parameter, double pitchfork, double accuracy) {
+  for (const double step : steps) {
+    INFO(step);
+    const auto all = traced_of(system + with_steps(step));
+    REQUIRE(!all.empty());
+    INFO(all[0].branch.explanation);
+    check_values(values_at(all[0], PointType::branch_point, parameter), {pitchfork}, accuracy);
+    CHECK(values_at(all[0], PointType::fold, parameter).empty());
+    CHECK(all[0].branch.stop == Stop::left_range);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("Each end of a canard explosion has its fold", "[cycles]") {
@@ -85,4 +99,93 @@ from = 0.5
       CHECK_THAT(values_at(all[0], PointType::start, "z_left").at(0), WithinRel(0.9590437954132, 1e-6));
     }
   }
+}
+
+TEST_CASE("Points of period two pass to their images where they meet", "[maps]") {
+  // x = r x (1 - x): r = 3; the map of Henon: a = 3 (1 - b)^2/4
+  check_passes(R"case([model]
+kind = "map"
+iterate = 2
+[model.parameters]
+r = 3.4
+[model.equations]
+x = "r*x*(1 - x)"
+[model.start]
+x = 0.842
+[branch]
+parameter = "r"
+from = 3.4
+to = 2.5
+)case",
+               {0.005, 0.007, 0.00787, 0.05, 0.2}, "r", 3, 1e-10);
+  check_passes(R"case([model]
+kind = "map"
+iterate = 2
+[model.parameters]
+a = 0.8
+b = 0.3
+[model.equations]
+x = "1 - a*x^2 + y"
+y = "b*x"
+[model.start]
+x = 1.2
+y = -0.1
+[branch]
+parameter = "a"
+from = 0.8
+to = 0.1
+)case",
+               {0.005, 0.0056, 0.00787, 0.01387, 0.1}, "a", 0.3675, 1e-10);
+}
+
+TEST_CASE("Cycles pass to their images where they gain a symmetry", "[cycles]") {
+  check_passes(R"case([model]
+kind = "forced"
+period = "2*pi/W"
+[model.parameters]
+F = 2.0
+d = 0.3
+W = 2.0
+[model.equations]
+x = "v"
+v = "F*cos(W*t) - d*v + x - x^3"
+[model.start]
+x = 1.0
+[cycles]
+settle = 800
+[branch]
+parameter = "F"
+from = 0.1
+to = 6
+start = 0.3
+)case",
+               {0.02, 0.05, 0.1, 0.264}, "F", 3.661299205, 1e-7);
+  check_passes(R"case([model]
+kind = "piecewise"
+period = "2*pi/w"
+[model.parameters]
+w = 1.72
+r = 0.7
+zeta = 0.02
+gap = 0.4
+[model.equations]
+x = "v"
+v = "cos(w*t) - 2*zeta*v - x"
+[model.start]
+v = 1.0
+[model.pieces.up]
+until = "x - gap"
+reset = { v = "-r*v" }
+[model.pieces.down]
+until = "x + gap"
+reset = { v = "-r*v" }
+[cycles]
+settle = 400
+[branch]
+parameter = "w"
+from = 1.7
+to = 1.8
+start = 1.72
+)case",
+               {0.005, 0.03633, 0.1, 0.264}, "w", 1.73739334, 1e-8);
 }

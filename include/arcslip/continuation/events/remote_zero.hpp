@@ -15,9 +15,10 @@ struct RemoteZero {
   static constexpr std::size_t count = 6;  ///< places of which the polynomial is made
   double s = 0;                            ///< the zero
   bool agrees = false;  ///< with that of a polynomial of two degrees less, to 1e-9 of the range
-  std::array<double, count> places{};   ///< rising
-  std::array<double, count> weights{};  ///< of values there, in that at the zero
-  std::array<double, count> slopes{};   ///< of values there, in the derivative at the zero
+  std::array<double, count> places{};        ///< rising
+  std::array<double, count> weights{};       ///< of values there, in that at the zero
+  std::array<double, count> slopes{};        ///< of values there, in the derivative at the zero
+  std::array<double, count> other_slopes{};  ///< the same of the polynomial of two degrees less
 };
 
 /// What is known of where the zero lies.

@@ -36,8 +36,13 @@ class StepSearch {
   /// A reading at the upper end, of which `end` is that at the end of the whole step; 0 where it has none.
   double at_upper(std::size_t which, double end);
 
-  /// The zero of a derivative along the branch. All of those that are made of parameters vanish at a cusp.
-  Zero turn(std::size_t which, int sign, bool changes);
+  /// The zero of a derivative along the branch, behind `from`. All of those that are made of parameters
+  /// vanish at a cusp.
+  Zero turn(std::size_t which, int sign, bool changes, double from = 0);
+
+  /// From where the rate of a parameter is no rounding: beside a pitchfork, at which it turns, it is what the
+  /// corrector leaves over the square of the way, and so up to the cube root of that.
+  double beside_start() const;
 
   /// Keeps the events of the first place only; the others are looked for up to there.
   void note(Event event);
