@@ -135,10 +135,8 @@ void append_reversed(std::vector<BranchPoint>& points, std::size_t skipped, cons
   for (std::size_t i = points.size(); i-- > skipped;) {
     BranchPoint& point = points[i];
     point.arclength = -point.arclength;
-    if (point.type == PointType::regime_switch) {
-      point.regime = i > 0 ? points[i - 1].regime : regime;
-      std::swap(point.tangent, point.arrival);
-    }
+    if (point.type == PointType::regime_switch) point.regime = i > 0 ? points[i - 1].regime : regime;
+    if (point.arrival.size() > 0) std::swap(point.tangent, point.arrival);
     point.tangent = -point.tangent;
     point.arrival = -point.arrival;
     out.push_back(std::move(point));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "arcslip/continuation/path/repetition.hpp"
 #include "arcslip/continuation/path/tracer.hpp"
@@ -17,6 +18,17 @@ bool is_corner(const std::vector<Event>& events, const Watch& watch) {
   return std::any_of(events.begin(), events.end(), [&](const Event& event) {
     return event.type == PointType::event && watch.piece_of(static_cast<std::size_t>(event.index));
   });
+}
+
+/// d(u, p_a)/d arclength of the piece that arrives at a corner just before `stepper` stands; empty where it
+/// cannot be told.
+Vector arrival_at_corner(Stepper& stepper, Corrector& corrector, double last_chord) {
+  constexpr double just_before = 1e-9;  // of the way from the last point: events are nearer to their corner
+  const CurvePoint& here = stepper.here();
+  if (stepper.prober().linearise_beside(here, here.tangent, -just_before * last_chord) !=
+      Correction::converged)
+    return {};
+  return corrector.direction().normalized().cwiseProduct(here.scale);
 }
 
 }  // namespace
@@ -60,6 +72,9 @@ void Tracer::take_events(const Signs& before) {
   const CurvePoint& here = stepper_.here();
   const Passage passage{before, state_.signs, stepper_, watch_};
   state_.signs.unstable = before.unstable;
+  const bool at_corner = is_corner(events_, watch_);
+  Vector arrival;
+  if (at_corner) arrival = arrival_at_corner(stepper_, corrector_, state_.last_chord);
   for (const Event& event : events_) {
     event.kind->pass(event, passage);
     if (event.kind->ends_regime || !event.told) continue;
@@ -73,7 +88,8 @@ void Tracer::take_events(const Signs& before) {
     store(
         event.type == PointType::fold ? problem_.turn(here.unknowns, here.parameters, here.regime)
                                       : event.type,
-        event.type == PointType::event ? watch_.label(static_cast<std::size_t>(event.index)) : std::string());
+        event.type == PointType::event ? watch_.label(static_cast<std::size_t>(event.index)) : std::string(),
+        std::exchange(arrival, {}));
     if (const auto known = came_round(problem_, branch_.points, parameter_, options_.tolerances))
       stop(Stop::repeats, "the branch came back to its point " + std::to_string(*known) +
                               " and not to its start: a step had gone over to another branch");
@@ -91,7 +107,7 @@ void Tracer::take_events(const Signs& before) {
   if (before.unstable >= 0) state_.signs.unstable = std::max(state_.signs.unstable, 0);
   if (stopped_) return;
   // At a corner an observable may turn, and turn again before the next step ends.
-  for (std::size_t i = 0; i < before.observables.size() && is_corner(events_, watch_); ++i) {
+  for (std::size_t i = 0; i < before.observables.size() && at_corner; ++i) {
     const int behind = sign_of_slope(stepper_, i, stepper_.at_here()[i]);
     int& sign = state_.signs.observables[i];
     if (sign != before.observables[i] || sign * behind >= 0) continue;

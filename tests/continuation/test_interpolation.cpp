@@ -156,3 +156,23 @@ TEST_CASE("A corner is interpolated as a corner") {
     CHECK_THAT(sample.unknowns(0), WithinAbs(expected, 1e-9));
   }
 }
+
+TEST_CASE("A corner within a regime that an event tells of is interpolated as one, either way") {
+  const HiddenCorner problem(1, 3);
+  const double start = GENERATE(-1.0, 1.0, 3.0);
+  TraceOptions options = over("p", -1, 3);
+  options.events = {{"corner", [](const Vector& u, const Vector&, const Regime&) { return u(0); },
+                     [](const Vector&, const Vector&, const Regime&) { return 0; }}};
+  const Branch branch =
+      trace_both(problem, {vector_of({start < 0 ? start : start / 3}), vector_of({start})}, options);
+  REQUIRE(branch.complete());
+  const auto corners = of_type(branch, PointType::event);
+  REQUIRE(corners.size() == 1);
+  CHECK_THAT(corners[0].arriving()(0) / corners[0].arriving()(1), WithinAbs(1, 1e-9));
+  CHECK_THAT(corners[0].tangent(0) / corners[0].tangent(1), WithinAbs(1.0 / 3, 1e-9));
+  const InterpolatedBranch curve(branch, 0);
+  for (const Sample& sample : curve.resample(500)) {
+    const double expected = sample.parameters(0) < 0 ? sample.parameters(0) : sample.parameters(0) / 3;
+    CHECK_THAT(sample.unknowns(0), WithinAbs(expected, 1e-9));
+  }
+}

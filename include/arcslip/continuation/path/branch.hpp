@@ -24,7 +24,7 @@ struct BranchPoint {
   int iterations = 0;                   ///< Newton corrections spent on the point
   double residual = 0;                  ///< largest entry of F
   Vector tangent;                       ///< n + 1: d(u, p_a)/d arclength, of the piece that leaves
-  Vector arrival;                       ///< the same of the piece that arrives, at a switch; else empty
+  Vector arrival;                       ///< the same of the piece that arrives, at a corner; else empty
   ComplexVector eigenvalues;            ///< of an equilibrium; else empty
   int unstable = -1;  ///< how many of them have a positive real part; -1 where there are none
   std::string label;  ///< the name of a user's event
