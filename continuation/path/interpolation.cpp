@@ -61,6 +61,7 @@ class InterpolatedBranch::Piece {
   Piece(const InterpolatedBranch& branch, std::size_t piece);
 
   std::size_t number() const { return piece_; }
+  double least() const { return least_; }
 
   /// A part `x` of the way.
   Vector at(double x) const;
@@ -317,25 +318,7 @@ Sample InterpolatedBranch::between(std::size_t piece, double x) const {
   return result;
 }
 
-/// Makes a sample the solution next to it, across the direction `along`.
-void InterpolatedBranch::solve(Sample& sample, const Vector& along) const {
-  CurvePoint point = corrector_->make_point();
-  point.unknowns = sample.unknowns;
-  point.parameters = sample.parameters;
-  point.regime = sample.regime;
-  corrector_->set_scale(point);
-  const CurvePoint origin = point;
-  const Vector normal = along.cwiseQuotient(origin.scale).normalized();
-  if (corrector_->correct(point, origin, normal, 0, true) != Correction::converged) return;
-  Vector away(normal.size());
-  corrector_->difference(point, origin, away);
-  constexpr double next_to = 100;  // times the estimated error: farther away lies another branch
-  const double error = sample.error.cwiseQuotient(origin.scale).norm();
-  if (!(away.norm() <= next_to * error + 1e-6)) return;
-  sample.unknowns = point.unknowns;
-  sample.parameters = point.parameters;
-  sample.error.setZero();
-}
+double InterpolatedBranch::doubt(std::size_t piece) const { return curve(piece).least(); }
 
 Sample InterpolatedBranch::at(double arclength) const {
   if (!(arclength >= begin() && arclength <= end())) {

@@ -41,7 +41,8 @@ TracedBranch as_drawn(const TracedBranch& traced) {
       continuation::index_of(traced.problem().parameter_names(), traced.request->options.parameter),
       [&](const continuation::BranchPoint& point) -> const std::vector<double>& {
         return columns.values(point);
-      });
+      },
+      &traced.problem());
   TracedBranch drawn{traced.request, traced.base, traced.curve, {}};
   drawn.branch.points = std::move(found.points);
   drawn.drawn = std::make_shared<const Matrix>(std::move(found.values));

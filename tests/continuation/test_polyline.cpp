@@ -39,15 +39,18 @@ Points shown(const Problem& problem, const Branch& branch, Index parameter, Inde
   return points;
 }
 
-Branch filled(const Problem& problem, const Branch& branch, Index parameter) {
+/// `looked_at` is the problem that what is filled in is looked at with.
+Branch filled(const Problem& problem, const Branch& branch, Index parameter,
+              const Problem* looked_at = nullptr) {
   std::vector<double> values;
   Vector observed;
   Branch result;
-  result.points = polyline(branch, parameter, [&](const BranchPoint& point) -> const std::vector<double>& {
-                    problem.observe(point.unknowns, point.parameters, point.regime, observed);
-                    values.assign(observed.begin(), observed.end());
-                    return values;
-                  }).points;
+  const auto drawn = [&](const BranchPoint& point) -> const std::vector<double>& {
+    problem.observe(point.unknowns, point.parameters, point.regime, observed);
+    values.assign(observed.begin(), observed.end());
+    return values;
+  };
+  result.points = polyline(branch, parameter, drawn, looked_at).points;
   return result;
 }
 
@@ -158,6 +161,41 @@ TEST_CASE("Polylines of random responses are within a pixel of them, also where 
     }
     CHECK(drawn.size() < 16 * branch.points.size());  // steps are long where the contact sticks
   }
+}
+
+TEST_CASE("What the points of a branch do not tell is solved for, or left out") {
+  // u = x + depth tanh((x - 0.3)/width), which has no value where it is steep, if it is not to have one.
+  constexpr double width = 0.02, depth = 0.2;
+  const bool has_values = GENERATE(true, false);
+  const auto u_at = [](double p) { return p + depth * std::tanh((p - 0.3) / width); };
+  const auto slope_at = [](double p) {
+    return 1 + depth / width / std::pow(std::cosh((p - 0.3) / width), 2);
+  };
+  const ScalarProblem step(
+      {"p"},
+      [=](double u, const Vector& p) {
+        return has_values || std::abs(p(0) - 0.3) > 0.25 ? u - u_at(p(0)) : std::nan("");
+      },
+      [](double, const Vector&) { return 1.0; }, {[=](double, const Vector& p) { return -slope_at(p(0)); }});
+  Branch branch;
+  for (const double p : {-0.5, 0.0, 0.32, 1.0}) {
+    BranchPoint& point = branch.points.emplace_back();
+    point.unknowns = vector_of({u_at(p)});
+    point.parameters = vector_of({p});
+    point.tangent = vector_of({slope_at(p), 1}).normalized();
+    if (branch.points.size() == 1) continue;
+    const BranchPoint& last = branch.points.end()[-2];
+    point.arclength = last.arclength + std::hypot(point.unknowns(0) - last.unknowns(0),
+                                                  point.parameters(0) - last.parameters(0));
+  }
+  const Branch drawn = filled(step, branch, 0, &step);
+  const auto between = std::count_if(drawn.points.begin(), drawn.points.end(), [](const BranchPoint& point) {
+    return point.parameters(0) > 0 && point.parameters(0) < 0.32;
+  });
+  CAPTURE(has_values, between);
+  CHECK((has_values ? between > 10 : between == 0));
+  for (const BranchPoint& point : drawn.points)
+    CHECK_THAT(point.unknowns(0), WithinAbs(u_at(point.parameters(0)), 1e-3));
 }
 
 TEST_CASE("A polyline keeps all points, corners among them, and the counts of what is unstable") {

@@ -80,7 +80,8 @@ py::dict drawn(const BranchHandle& handle) {
     Columns columns(handle.traced(), Detail::drawn);
     const auto drawn = continuation::polyline(
         handle.branch(), handle.parameter(),
-        [&](const BranchPoint& point) -> const std::vector<double>& { return columns.values(point); });
+        [&](const BranchPoint& point) -> const std::vector<double>& { return columns.values(point); },
+        &handle.traced().problem());
     return columns_of(handle.tabulate(drawn.points, Detail::drawn));
   });
 }

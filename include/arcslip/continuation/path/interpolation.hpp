@@ -54,6 +54,15 @@ class InterpolatedBranch {
   /// The same without its error, which takes longer.
   Sample place(std::size_t piece, double x) const;
 
+  /// The estimated error in the middle of a piece, relative to what changes along it.
+  double doubt(std::size_t piece) const;
+
+  /// Both for a curve with its problem: that place after one of Newton's corrections across the piece's
+  /// chord, without its error, and as a point of the branch with its tangent, where there is a solution. None
+  /// where that fails, or leads farther away than the piece is long.
+  std::optional<Sample> corrected(std::size_t piece, double x) const;
+  std::optional<BranchPoint> solution(std::size_t piece, double x) const;
+
   /// Wherever the continuation parameter has this value, in the order of the branch.
   std::vector<Sample> where(double value) const;
 
@@ -70,7 +79,10 @@ class InterpolatedBranch {
   std::vector<std::pair<std::size_t, bool>> around(std::size_t piece) const;
   std::optional<std::size_t> corner(std::size_t piece, int way) const;
   const Piece& curve(std::size_t piece) const;
+  CurvePoint origin(const Sample& sample) const;
   void solve(Sample& sample, const Vector& along) const;
+  template <class Correct>
+  std::optional<CurvePoint> correct(const CurvePoint& origin, std::size_t piece, const Correct& by) const;
   Sample place(const Piece& curve, std::size_t piece, double x) const;
 
   const Branch& branch_;

@@ -22,7 +22,10 @@ struct DrawnPoints {
 /// straight lines are nowhere further from it than two thousandths of the width and height between
 /// neighbouring points, or of 8e-4 of the branch's width and height where these are nearer to each other.
 /// That holds for every quantity that is drawn over the parameter, on linear and on logarithmic axes.
-/// `parameter` is the position of the continuation parameter among the problem's.
-DrawnPoints polyline(const Branch& branch, Index parameter, const Drawn& drawn);
+/// `parameter` is the position of the continuation parameter among the problem's. With the problem what is
+/// filled in is looked at in the middle between two points: where the solution next to it is drawn elsewhere
+/// it is the branch through that solution, too, that is drawn, and where there is none, a straight line.
+DrawnPoints polyline(const Branch& branch, Index parameter, const Drawn& drawn,
+                     const Problem* problem = nullptr);
 
 }  // namespace arcslip::continuation
