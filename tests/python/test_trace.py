@@ -142,6 +142,21 @@ def test_where_f_is_nan_the_branch_ends_and_says_so():
     assert branch.stop == "no_value" and branch["lambda"][-1] == pytest.approx(1, abs=1e-8)
 
 
+def test_where_differences_of_f_leave_its_domain_the_branch_ends_with_its_points():
+    def root(u, p):
+        return np.array([np.sqrt(0.3 - float(p)) - u[0] + u[0] ** 3 / 9 if p <= 0.3 else np.nan])
+
+    def unknown_below(u, p):
+        u = float(u[0])
+        return np.array([p - u if u < 0.7 else np.nan])
+
+    for f, guess, edge, which in ((root, 0.5, 0.3, "parameter_jacobian"), (unknown_below, 0.0, 0.7, "jacobian")):
+        with pytest.warns(RuntimeWarning, match="no_value: .*the problem has no value there"):
+            branch = arcslip.trace(f, [guess], 0.0, range=(0, 1))
+        assert branch.derivatives[which] == "central differences"
+        assert branch.stop == "no_value" and branch["lambda"][-1] == pytest.approx(edge, abs=1e-5)
+
+
 class Broken(Exception):
     pass
 

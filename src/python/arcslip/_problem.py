@@ -22,7 +22,7 @@ class Problem:
         f(u, p) -> array of shape (n,), scaled such that 1 is large.
     jacobian : callable, optional
         dF/du, shape (n, n). Without it: complex steps, which are exact, if f takes complex numbers, else central
-        differences.
+        differences, which have no value within 6e-6 of where f has none, relative to what is changed.
     parameter_jacobian : callable, optional
         dF/dp, shape (n, number of parameters), or (n,) of one. Without it likewise.
     observables : callable or dict, optional
