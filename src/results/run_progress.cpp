@@ -1,5 +1,7 @@
 #include "results/run_progress.hpp"
 
+#include <fmt/format.h>
+
 #include <sstream>
 
 namespace arcslip {
@@ -12,6 +14,13 @@ constexpr std::size_t most_kept = 1'000'000;  // points; branches with more are 
 bool has_more(const TracedBranch& traced) {
   const auto& first = traced.branch.first_stop;
   return is_unfinished(traced.branch.stop) || (first && is_unfinished(*first));
+}
+
+std::string why_not_whole(const continuation::Branch& branch) {
+  if (!is_end(branch.stop)) return fmt::format("{}: {}", to_string(branch.stop), branch.explanation);
+  if (branch.first_stop && !is_end(*branch.first_stop))
+    return fmt::format("{}, before the start: {}", to_string(*branch.first_stop), branch.first_explanation);
+  return "";
 }
 
 void RunProgress::take_up(const std::string& folder, const CasePlan& plan) {

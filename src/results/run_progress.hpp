@@ -3,6 +3,7 @@
 // How far a run of a case has come, and from where it goes on if it is interrupted.
 
 #include <mutex>
+#include <string>
 
 #include "arcslip/cases/runs.hpp"
 #include "results/run_checkpoint.hpp"
@@ -11,6 +12,10 @@ namespace arcslip {
 
 /// Whether it would go on where it was left.
 bool has_more(const TracedBranch& traced);
+
+/// Why a branch is not whole, or nothing if it is: a border beyond which the problem has no regime is an end
+/// as good as any, and of a branch traced both ways both parts must have one.
+std::string why_not_whole(const continuation::Branch& branch);
 
 /// To be told from one thread; another one may settle it at any moment.
 class RunProgress {

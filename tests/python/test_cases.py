@@ -36,6 +36,23 @@ def figure_8(cases, program, tmp_path_factory):
     return arcslip.run(cases / "figure_8.toml"), folder
 
 
+def test_a_branch_is_complete_where_the_program_calls_it_whole(program, tmp_path):
+    case = '''[model]
+    parameters = {{ mu = 0.3 }}
+    equations = {{ x = "mu - x + 0*sqrt(0.5 - mu)" }}
+    [branch]
+    parameter = "mu"
+    from = {}
+    to = {}
+    start = 0.3'''
+    for first, last in ((0.4, 0), (1, 0), (0, 1)):
+        path = tmp_path / "case.toml"
+        path.write_text(case.format(first, last))
+        (branch,) = arcslip.run(path).branches
+        ended = program("run", path, "-o", tmp_path / "out", "--quiet")
+        assert branch.complete == (ended.returncode == 0) == (1 not in (first, last))
+
+
 def test_figure_8_equals_the_programs_table_bit_for_bit(figure_8):
     result, folder = figure_8
     rows = rows_of(folder / "branches.csv")

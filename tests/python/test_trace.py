@@ -157,6 +157,16 @@ def test_where_differences_of_f_leave_its_domain_the_branch_ends_with_its_points
         assert branch.stop == "no_value" and branch["lambda"][-1] == pytest.approx(edge, abs=1e-5)
 
 
+def test_a_branch_that_breaks_off_before_its_start_is_not_complete():
+    def f(u, p):
+        return u - p if p.real < 1 else u * np.nan
+
+    with pytest.warns(RuntimeWarning, match="no_value, before the start: .*the problem has no value there"):
+        branch = arcslip.trace(f, [0.0], 0.0, range=(2, -1))
+    assert branch.stop == "reached_end" and not branch.complete
+    assert branch.summary["first_stop"] == "no_value" and branch["lambda"][0] == pytest.approx(1, abs=1e-8)
+
+
 class Broken(Exception):
     pass
 

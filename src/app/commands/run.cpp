@@ -43,15 +43,6 @@ struct RunOptions {
   std::string resume;    ///< folder of the interrupted run to go on with; empty: none
 };
 
-/// Why a branch is not whole, or nothing if it is: a border beyond which the problem has no regime is an end
-/// as good as any, and of a branch traced both ways both parts must have one.
-std::string complaint(const continuation::Branch& branch) {
-  if (!is_end(branch.stop)) return fmt::format("{}: {}", to_string(branch.stop), branch.explanation);
-  if (branch.first_stop && !is_end(*branch.first_stop))
-    return fmt::format("{}, before the start: {}", to_string(*branch.first_stop), branch.first_explanation);
-  return branch.warning;
-}
-
 /// Why it ended, where not at an end of its range.
 std::string ends_of(const continuation::Branch& branch) {
   using continuation::Stop;
@@ -218,7 +209,8 @@ void Run::trace_request(std::size_t i, RunFiles& files, const std::string& folde
 void Run::report(const TracedBranch& traced, std::size_t number) {
   points_ += traced.surface ? traced.surface->charts.size() : traced.branch.points.size();
   if (!options_.quiet) show(described(traced, number));
-  const std::string why = complaint(traced.branch);
+  const std::string why_not = why_not_whole(traced.branch);
+  const std::string& why = why_not.empty() ? traced.branch.warning : why_not;
   if (why.empty()) return;
   complete_ = false;
   complain(fmt::format("arcslip: branch {}: {}", number, why));

@@ -46,11 +46,12 @@ class Branch(_Columns):
     stop : str
         Why it ended: "reached_end", "closed_loop", "own_image", "left_range", "max_points", "interrupted", "no_start", ...
     explanation : str
-        The same as a sentence.
+        The same as a sentence. Of a part before the start `summary` has both, as "first_stop" and "first_explanation".
     warning : str
         What makes its special points doubtful, or "".
     complete : bool
-        Whether it was traced to its end.
+        Whether it was traced to its end; of a branch that begins within its range, at either side of the start. A border
+        that nothing lies beyond is an end as well.
     seconds : float
         What it took, s; of branches that were traced together the mean.
     derivatives : dict
@@ -70,7 +71,7 @@ class Branch(_Columns):
         self.stop = core.stop
         self.explanation = core.explanation
         self.warning = core.warning
-        self.complete = core.complete
+        self.complete = not core.why_not_whole
         self.seconds = core.seconds
         self.derivatives = derivatives or {}
         self.verification = verification

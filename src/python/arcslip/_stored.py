@@ -6,6 +6,7 @@ import os
 
 import numpy as np
 
+from . import _core
 from ._branch import Branch
 
 
@@ -37,7 +38,8 @@ class _Stored:
         self.stop = said["stop"]
         self.explanation = said["explanation"]
         self.warning = said.get("warning", "")
-        self.complete = said["stop"] in ("reached_end", "left_range", "closed_loop", "own_image", "requested")
+        ends = [said["stop"], said.get("first_stop", said["stop"])]
+        self.why_not_whole = ", ".join(stop for stop in ends if not _core.is_end(stop))
         self.seconds = said.get("seconds", 0.0)
 
     def __len__(self):

@@ -7,7 +7,6 @@ from ._branch import Branch
 from ._problem import Prepared, Problem, driven
 
 _LIMITS = {"max_points", "max_seconds", "interrupted"}
-_OWN_ENDS = {"left_regime", "infinite_period"}
 
 
 def trace(
@@ -377,6 +376,7 @@ def _traced(prepared, how, box, check, options, progress):
 def _told(branch):
     if branch.stop == "interrupted":
         warnings.warn("interrupted: what was traced is returned", RuntimeWarning, stacklevel=3)
-    elif branch.warning or not (branch.complete or branch.stop in _LIMITS or branch.stop in _OWN_ENDS):
-        warnings.warn(f"{branch.stop}: {branch.explanation}", RuntimeWarning, stacklevel=3)
+    elif branch.warning or not (branch.complete or branch.stop in _LIMITS):
+        told = branch._core.why_not_whole or f"{branch.stop}: {branch.explanation}"
+        warnings.warn(told, RuntimeWarning, stacklevel=3)
     return branch

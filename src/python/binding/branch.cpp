@@ -9,6 +9,7 @@
 #include "arcslip/continuation/path/polyline.hpp"
 #include "cases/cycles.hpp"
 #include "results/branch_columns.hpp"
+#include "results/run_progress.hpp"
 
 namespace arcslip::python {
 namespace {
@@ -219,6 +220,10 @@ const Matrix& BranchHandle::parameters() {
 }
 
 void bind_branch(py::module_& module) {
+  module.def("is_end", [](const std::string& stop) {
+    const auto named = continuation::stop_named(stop);
+    return named && is_end(*named);
+  });
   const auto lent = [](const Matrix& (BranchHandle::*part)()) {
     return [part](const py::object& self) { return lend((self.cast<BranchHandle&>().*part)(), self); };
   };
@@ -266,7 +271,8 @@ void bind_branch(py::module_& module) {
       .def_property_readonly("explanation",
                              [](const BranchHandle& self) { return self.branch().explanation; })
       .def_property_readonly("warning", [](const BranchHandle& self) { return self.branch().warning; })
-      .def_property_readonly("complete", [](const BranchHandle& self) { return self.branch().complete(); })
+      .def_property_readonly("why_not_whole",
+                             [](const BranchHandle& self) { return why_not_whole(self.branch()); })
       .def_property_readonly("seconds", [](const BranchHandle& self) { return self.traced().seconds; })
       .def_property_readonly("checkpoint", [](const BranchHandle& self) {
         const auto& checkpoint = self.branch().checkpoint;

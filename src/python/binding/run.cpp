@@ -107,9 +107,7 @@ void CaseRun::trace(const std::optional<std::string>& folder, Interruption& inte
 namespace {
 
 bool is_whole(const TracedBranch& traced) {
-  const auto& first = traced.branch.first_stop;
-  return is_end(traced.branch.stop) && (!first || is_end(*first)) &&
-         (!traced.certificate || traced.certificate->proven());
+  return why_not_whole(traced.branch).empty() && (!traced.certificate || traced.certificate->proven());
 }
 
 }  // namespace
