@@ -243,11 +243,17 @@ Sentences ends_answer(const ordered_json& branches) {
   Sentences sentences;
   std::size_t open = 0;
   for (const ordered_json& branch : branches) {
-    const auto stop = continuation::stop_named(branch.at("stop").get<std::string>());
-    if (stop && is_end(*stop)) continue;
+    const auto is_whole = [&](const char* part) {
+      const auto stop = continuation::stop_named(branch.value(part, "reached_end"));
+      return stop && is_end(*stop);
+    };
+    const bool is_cut_ahead = !is_whole("stop");
+    if (!is_cut_ahead && is_whole("first_stop")) continue;
     if (++open <= most)
-      sentences.push_back(fmt::format("Branch {} is not whole: {}.", branch.at("branch").get<std::size_t>(),
-                                      branch.at("explanation").get<std::string>()));
+      sentences.push_back(
+          fmt::format("Branch {} is not whole{}: {}.", branch.at("branch").get<std::size_t>(),
+                      is_cut_ahead ? "" : " before its start",
+                      branch.at(is_cut_ahead ? "explanation" : "first_explanation").get<std::string>()));
   }
   if (open > most) sentences.push_back(fmt::format("{} more branches are not whole.", open - most));
   return sentences;

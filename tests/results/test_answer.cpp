@@ -167,6 +167,10 @@ TEST_CASE("A run answers with its peaks, what else it found and what is not whol
   CHECK(told[2] == "Branch 1 is not whole: no smaller step is allowed.");
   CHECK(told[3] == "1 of 2 branches are proven by interval arithmetic: nothing was jumped.");
   CHECK(told[4] == "The run was interrupted.");
+  summary["branches"][1]["stop"] = "reached_end";
+  summary["branches"][1]["first_stop"] = "no_value";
+  summary["branches"][1]["first_explanation"] = "the problem has no value there";
+  CHECK(run_answer(summary)[2] == "Branch 1 is not whole before its start: the problem has no value there.");
   summary["branches"] = {branch(0, 0.1, 2.8)};
   summary["branches"][0]["special"][2]["Y_m"] = 1.5e-5;
   summary["branches"][0]["special"][2]["frequency_Hz"] = 2413;
