@@ -49,6 +49,21 @@ def test_cycles_that_leave_equilibria_are_alone_unless_more_are_asked_for():
     assert "period_doubling" in alone[0]["type"] and np.array_equal(alone[0]["T"], more[0]["T"])
 
 
+@pytest.mark.parametrize(
+    ("ends", "options", "said"),
+    [
+        ("", {"max_points": 5}, "max_points: max_points = 5 points were stored"),
+        ("", {"max_seconds": 1e-6}, "time_limit: "),
+        ("+ 0*sqrt(1.9 - B)", {}, "no_value: .*has no value there"),
+    ],
+)
+def test_equilibria_that_end_before_their_hopf_point_are_told(ends, options, said):
+    equations = {"x": "A - (B + 1)*x + x^2*y" + ends, "y": "B*x - x^2*y"}
+    model = arcslip.Model(equations, {"A": 1, "B": 1}, {"x": "A", "y": "B/A"})
+    with pytest.warns(RuntimeWarning, match="^the equilibria whose Hopf points cycles leave: " + said):
+        assert arcslip.trace_cycles(model, parameter="B", range=(1, 4), **options) == []
+
+
 def test_what_is_no_cycle_is_refused():
     rest = arcslip.Model(equations={"x": "y", "y": "-x - d*y"}, parameters={"d": 1}, start={"x": 1})
     with pytest.raises(ValueError, match="come to rest"):

@@ -191,6 +191,12 @@ def trace_cycles(
     -------
     list of Branch
         With the columns "T", and "x_max", "x_min" of each unknown x; see `Branch.orbit`, `Branch.multipliers`.
+
+    Warns
+    -----
+    RuntimeWarning
+        The branch of equilibria ends before its range does, and cycles that leave Hopf points further on are missing; or
+        of any branch what `trace` warns of.
     """
     is_driven = period is not None
     if is_driven:
@@ -221,10 +227,12 @@ def trace_cycles(
     if not (forced or is_driven or problem.equilibrium):
         raise ValueError("problem: expected one of a flow, with equilibrium=True or of kind \"flow\"")
     formulas = problem._formulas if forced else None
-    cores = _core.trace_cycles(
+    cores, doubt = _core.trace_cycles(
         prepared.core, formulas, prepared.u0, prepared.p0, settle, None if period is None else str(period), bool(follow),
         how, options, held, progress
     )
+    if doubt:
+        warnings.warn(f"the equilibria whose Hopf points cycles leave: {doubt}", RuntimeWarning, stacklevel=2)
     return [_told(Branch(core, i, prepared.derivatives)) for i, core in enumerate(cores)]
 
 

@@ -6,6 +6,7 @@
 #include "python/binding/timed_field.hpp"
 #include "python/binding/trace_options.hpp"
 #include "python/binding/tracing.hpp"
+#include "results/run_progress.hpp"
 
 namespace arcslip::python {
 namespace {
@@ -17,27 +18,32 @@ std::shared_ptr<const continuation::Field> field_of(
   return std::make_shared<continuation::EquilibriumField>(traced_problem(problem));
 }
 
+struct FoundCycles {
+  std::vector<continuation::CycleBranch> branches;
+  std::string doubt;  ///< about the Hopf points that they leave: why some may be missing; empty without
+};
+
 /// The cycles that leave the Hopf points of the branch next to a guess or, with a time to settle, that which
 /// a motion from it comes to; and with `follow` all that can be reached from these.
-std::vector<continuation::CycleBranch> traced_cycles(const std::shared_ptr<const continuation::Field>& field,
-                                                     const continuation::Problem& problem,
-                                                     const continuation::Guess& guess,
-                                                     const std::optional<double>& settle, bool follow,
-                                                     bool both, const continuation::TraceOptions& options,
-                                                     const continuation::CycleOptions& cycles,
-                                                     const continuation::Observer& observer) {
+FoundCycles traced_cycles(const std::shared_ptr<const continuation::Field>& field,
+                          const continuation::Problem& problem, const continuation::Guess& guess,
+                          const std::optional<double>& settle, bool follow, bool both,
+                          const continuation::TraceOptions& options, const continuation::CycleOptions& cycles,
+                          const continuation::Observer& observer) {
   if (!settle && !field->is_periodic()) {
     const continuation::TraceOptions unseen = unwatched(options);
     const continuation::Branch equilibria =
         both ? continuation::trace_both(problem, guess, unseen) : continuation::trace(problem, guess, unseen);
     if (equilibria.stop == continuation::Stop::no_start) throw std::invalid_argument(equilibria.explanation);
-    return trace_cycles_leaving(field, {equilibria}, options, cycles, observer, follow);
+    const std::string why_not = why_not_whole(equilibria);
+    return {trace_cycles_leaving(field, {equilibria}, options, cycles, observer, follow),
+            why_not.empty() ? equilibria.warning : why_not};
   }
   continuation::CycleStart start =
       settled_cycle(field, guess.unknowns, guess.parameters, settle, cycles, options.go_on);
   start.both_ways = both;
-  if (follow) return trace_connected_cycles(start, options, cycles, observer);
-  return {continuation::trace_cycles(start, options, cycles, observer)};
+  if (follow) return {trace_connected_cycles(start, options, cycles, observer), ""};
+  return {{continuation::trace_cycles(start, options, cycles, observer)}, ""};
 }
 
 continuation::OrbitOptions held_on(const py::dict& held) {
@@ -68,10 +74,11 @@ Handles handles_of(const std::shared_ptr<PythonProblem>& problem, const continua
   return handles;
 }
 
-Handles trace_cycles(const std::shared_ptr<PythonProblem>& problem, const py::object& formulas,
-                     const py::handle& u, const py::handle& p, const std::optional<double>& settle,
-                     const std::optional<std::string>& period, bool follow, const std::string& how,
-                     const py::dict& given, const py::dict& held, const py::object& progress) {
+/// The branches, and the doubt about the Hopf points.
+py::tuple trace_cycles(const std::shared_ptr<PythonProblem>& problem, const py::object& formulas,
+                       const py::handle& u, const py::handle& p, const std::optional<double>& settle,
+                       const std::optional<std::string>& period, bool follow, const std::string& how,
+                       const py::dict& given, const py::dict& held, const py::object& progress) {
   continuation::TraceOptions options;
   set_options(given, problem, options);
   const continuation::CycleOptions cycles = held_on(held);
@@ -83,11 +90,11 @@ Handles trace_cycles(const std::shared_ptr<PythonProblem>& problem, const py::ob
     guess.parameters.conservativeResize(guess.parameters.size() - 1);
   }
   const Stopwatch watch;
-  const auto branches = in_engine(options, progress, [&](const auto& observer) {
+  const FoundCycles found = in_engine(options, progress, [&](const auto& observer) {
     return traced_cycles(field_of(problem, forced), *traced_problem(problem), guess, settle, follow,
                          how == "both", options, cycles, observer);
   });
-  return handles_of(problem, options, cycles, branches, watch);
+  return py::make_tuple(handles_of(problem, options, cycles, found.branches, watch), found.doubt);
 }
 
 /// The branch of what has orbits alone from its guess, or what motions come to, and, with `follow`, all that
