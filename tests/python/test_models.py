@@ -181,3 +181,23 @@ def test_parameters_that_a_model_has_not_are_refused():
         arcslip.trace(arcslip.Model(**BRUSSELATOR), None, {"C": 1}, "B")
     with pytest.raises(TypeError, match="u0: missing"):
         arcslip.trace(lambda u, p: u - p)
+
+
+@pytest.mark.parametrize(
+    ("kind", "more", "instead"),
+    [
+        ("forced", {"period": "2*pi"}, "trace_cycles"),
+        ("piecewise", {"pieces": {"only": {"until": "x - 1"}}}, "trace_cycles"),
+        ("boundary", {"interval": {"z": (0, 1)}, "conditions": ["x_left"]}, "trace_boundary"),
+    ],
+)
+def test_a_model_without_equilibria_is_refused_where_points_are_traced(kind, more, instead):
+    model = arcslip.Model({"x": "a - x"}, {"a": 1, "b": 1}, kind=kind, **more)
+    for work in (
+        lambda: arcslip.trace(model, parameter="a", range=(1, 2)),
+        lambda: arcslip.trace_all(model, parameter="a", range=(1, 2)),
+        lambda: arcslip.solve_all(model),
+        lambda: arcslip.surface(model, ranges=((0, 2), (0, 2))),
+    ):
+        with pytest.raises(ValueError, match=f'^problem: a Model of kind "{kind}" has no equilibria; .*arcslip.{instead}$'):
+            work()

@@ -6,7 +6,7 @@ import numpy as np
 
 from . import _core
 from ._problem import Prepared
-from ._trace import _is_number, _problem
+from ._trace import _is_number, _of_points
 
 
 class Surface:
@@ -116,7 +116,7 @@ def surface(
     ValueError
         What is given is wrong.
     """
-    problem = _problem(problem, functions)
+    problem = _of_points(problem, functions)
     u0, p0 = problem._begin(u0, p0, None if parameters is None else parameters[0], None)
     guesses = u0 if isinstance(u0, list) and u0 and not _is_number(u0[0]) else [u0]
     names = list(p0) if isinstance(p0, dict) else list(problem.parameters)

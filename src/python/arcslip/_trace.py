@@ -7,6 +7,7 @@ from ._branch import Branch
 from ._problem import Prepared, Problem, driven
 
 _LIMITS = {"max_points", "max_seconds", "interrupted"}
+_INSTEAD = {"forced": "trace_cycles", "piecewise": "trace_cycles", "boundary": "trace_boundary"}
 
 
 def trace(
@@ -98,7 +99,7 @@ def trace(
         "max_seconds": max_seconds,
         "bound": bound,
     }
-    problem = _problem(problem, functions)
+    problem = _of_points(problem, functions)
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
     prepared = Prepared(problem, u0, p0, parameter, regime)
     options["parameter"] = prepared.parameter
@@ -139,7 +140,7 @@ def trace_all(
     """
     if follow not in ("connected", "deflation", "all"):
         raise ValueError(f'follow: expected "connected", "deflation" or "all", got {follow!r}')
-    problem = _problem(problem, functions or {})
+    problem = _of_points(problem, functions or {})
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
     prepared = Prepared(problem, u0, p0, parameter, regime)
     options["parameter"] = prepared.parameter
@@ -335,7 +336,7 @@ def solve_all(problem, u0=None, p0=None, *, box=None, starts=100, regime=0, para
     Solutions
         A list of arrays of shape (n,), in the order found, with `complete` and `reason`.
     """
-    problem = _problem(problem, functions)
+    problem = _of_points(problem, functions)
     u0, p0 = problem._begin(u0, p0, parameter, None)
     guesses = u0 if isinstance(u0, list) and u0 and not _is_number(u0[0]) else [u0]
     names = list(p0) if isinstance(p0, dict) else list(problem.parameters)
@@ -350,6 +351,15 @@ def solve_all(problem, u0=None, p0=None, *, box=None, starts=100, regime=0, para
 
 def _is_number(value):
     return isinstance(value, (int, float))
+
+
+def _of_points(problem, functions):
+    """One whose solutions are points: not a Model that has orbits alone."""
+    problem = _problem(problem, functions)
+    kind = getattr(problem, "kind", "")
+    if kind in _INSTEAD:
+        raise ValueError(f'problem: a Model of kind "{kind}" has no equilibria; it is for arcslip.{_INSTEAD[kind]}')
+    return problem
 
 
 def _problem(problem, functions):
