@@ -1,6 +1,10 @@
 #include "arcslip/problems/formulas/formula_field.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include "field_values.hpp"
 #include "series_by.hpp"
@@ -39,6 +43,14 @@ double period_of(const Tape& tape, const Vector& p, Vector* by_parameters) {
   const bool known = tape.evaluate(p.data(), &value, gradient.data());
   if (by_parameters != nullptr) *by_parameters = Eigen::Map<const Vector>(gradient.data(), p.size());
   return known && value > 0 ? value : std::nan("");
+}
+
+void require_period(const Tape& tape, const Vector& p) {
+  double value = 0;
+  if (!tape.evaluate(p.data(), &value)) value = std::nan("");
+  if (!(value > 0) || std::isinf(value))
+    throw std::invalid_argument(
+        fmt::format("period: {:g} at the parameters of the start; expected a number > 0", value));
 }
 
 }  // namespace arcslip::problems

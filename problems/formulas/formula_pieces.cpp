@@ -48,7 +48,7 @@ FormulaPieces::FormulaPieces(const FormulaSystem& system) : told_(std::ssize(sys
   std::map<std::string, std::string> refused;
   for (const Formula& equation : system.equations) stay.push_back({equation.name, equation.name});
   if (system.period) {
-    compile({parameters_, {}, {*system.period}});
+    period_ = compile({parameters_, {}, {*system.period}});
     names_.emplace_back(phase_name);
     turns_.push_back(1);
     definitions.push_back({time_name, fmt::format("{} * ({})", phase_name, system.period->text)});

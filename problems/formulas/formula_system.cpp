@@ -67,8 +67,7 @@ std::string title_of(const FormulaSystem& system) {
 }
 
 /// Problem and guess of cycles: as long as nothing is known of them, of orbits that stay where they start.
-void add_cycles(const std::shared_ptr<const continuation::Field>& field, const Tape& start,
-                LibraryModel& model) {
+void add_cycles(const std::shared_ptr<const FormulaField>& field, const Tape& start, LibraryModel& model) {
   const auto resting = [field, start](const LibraryModel::Values& values) {
     const continuation::CycleOptions options;
     const Vector p = parameters_of(values, std::ssize(values));
@@ -81,7 +80,9 @@ void add_cycles(const std::shared_ptr<const continuation::Field>& field, const T
   model.build = [resting](const LibraryModel::Values& values) {
     return std::make_unique<continuation::CycleProblem>(*resting(values).problem);
   };
-  model.guess = [resting](const continuation::Problem& /*problem*/, const LibraryModel::Values& values) {
+  model.guess = [field, resting](const continuation::Problem& /*problem*/,
+                                 const LibraryModel::Values& values) {
+    field->require_period(parameters_of(values, std::ssize(values)));
     return resting(values).guess;
   };
 }
@@ -120,6 +121,7 @@ void add_pieces(const std::shared_ptr<const FormulaPieces>& field, const Tape& s
   model.orbit = [field, start](const LibraryModel::Values& values, const continuation::OrbitOptions& options,
                                std::optional<double> settle) {
     const Vector p = parameters_of(values, std::ssize(values));
+    field->require_period(p);
     Vector u = Vector::Zero(field->size());
     if (!start.evaluate(p.data(), u.data()))
       throw std::invalid_argument("the guess of the start has no value at the parameters of the start");

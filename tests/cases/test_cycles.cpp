@@ -246,6 +246,34 @@ to = 1.5
   }
 }
 
+TEST_CASE("A period that is no number above 0 at the start is told with its value", "[cycles]") {
+  const auto told = [](const std::string& model, const std::string& from, const std::string& period) {
+    const auto all = traced_of("[model]\n" + model + "\nperiod = " + period + R"case(
+[model.parameters]
+w = 0
+[model.equations]
+x = "cos(w*t) - x"
+[branch]
+parameter = "w"
+to = 2
+from = )case" + from);
+    REQUIRE(all.size() == 1);
+    return all[0].branch.explanation;
+  };
+  const auto said = [](const std::string& value) {
+    return ContainsSubstring("period: " + value + " at the parameters of the start; expected a number > 0");
+  };
+  const std::string forced = "kind = \"forced\"";
+  for (const std::string& model :
+       {forced, std::string("kind = \"piecewise\"\npieces.only.until = \"x - 1\"")}) {
+    CHECK_THAT(told(model, "-2", "\"10/w\""), said("-5"));
+    CHECK_THAT(told(model, "1", "0"), said("0"));
+    CHECK_THAT(told(model, "0", "\"10/w\""), said("inf") || said("nan"));
+    CHECK_THAT(told(model, "-2", "\"sqrt(w)\""), said("nan"));
+  }
+  CHECK_THAT(told(forced, "1", "\"2*pi/w\""), ContainsSubstring("the last value was reached"));
+}
+
 TEST_CASE("Tongues of Mathieu's equation begin and end at its characteristic values", "[cycles]") {
   // x'' + (a + q cos 2t) x = 0 at q = 1: a_0, a_2 and b_2, with multipliers 1, b_1 and a_1, with -1, of
   // scipy.special.mathieu_a(m, 0.5) and mathieu_b(m, 0.5)

@@ -119,6 +119,19 @@ def test_mistakes_are_told():
         branch.orbit(0)
 
 
+def test_a_period_below_0_at_the_start_is_told_with_its_value():
+    said = "^period: -5 at the parameters of the start; expected a number > 0"
+    walls = {"only": {"until": "x - 1"}}
+    for model in (
+        arcslip.Model({"x": "cos(w*t) - x"}, {"w": -2}, kind="forced", period="10/w"),
+        arcslip.Model({"x": "cos(w*t) - x"}, {"w": -2}, kind="piecewise", period="10/w", pieces=walls),
+    ):
+        with pytest.raises(ValueError, match=said):
+            arcslip.trace_cycles(model, range=(-2, -1))
+    with pytest.raises(ValueError, match=said):
+        arcslip.trace_cycles(lambda t, u, p: np.cos(p * t) - u, 0.0, -2.0, "w", range=(-2, -1), period="10/w")
+
+
 def test_a_function_of_time_is_as_its_formula_says():
     def oscillator(t, u, p):
         return np.array([u[1], np.cos(p["W"] * t) - 2 * p["D"] * u[1] - u[0]])

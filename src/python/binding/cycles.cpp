@@ -84,10 +84,14 @@ py::tuple trace_cycles(const std::shared_ptr<PythonProblem>& problem, const py::
   const continuation::CycleOptions cycles = held_on(held);
   continuation::Guess guess = guess_of(*problem, u, p, py::int_(0));
   std::shared_ptr<const continuation::Field> forced;
-  if (!formulas.is_none()) forced = formulas.cast<const Formulas&>().forced;
+  const auto take_up = [&](const auto& field) {
+    field->require_period(guess.parameters);
+    forced = field;
+  };
+  if (!formulas.is_none()) take_up(formulas.cast<const Formulas&>().forced);
   if (period) {
-    forced = std::make_shared<const TimedField>(problem, *period);
     guess.parameters.conservativeResize(guess.parameters.size() - 1);
+    take_up(std::make_shared<const TimedField>(problem, *period));
   }
   const Stopwatch watch;
   const FoundCycles found = in_engine(options, progress, [&](const auto& observer) {

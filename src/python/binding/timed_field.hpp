@@ -24,6 +24,8 @@ class TimedField : public continuation::Field {
   double period(const Vector& p, Vector* by_parameters) const override {
     return problems::period_of(period_, p, by_parameters);
   }
+  /// See problems::require_period.
+  void require_period(const Vector& p) const { problems::require_period(period_, p); }
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
  private:

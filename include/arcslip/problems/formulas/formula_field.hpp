@@ -12,6 +12,9 @@ namespace arcslip::problems {
 /// T(p) by its tape, with its derivatives where they are wanted; nan where it has no value above 0.
 double period_of(const Tape& tape, const Vector& p, Vector* by_parameters);
 
+/// Throws std::invalid_argument, with its value, where it has none above 0 at the parameters of a start.
+void require_period(const Tape& tape, const Vector& p);
+
 /// The equations above.
 class FormulaField : public continuation::Field {
  public:
@@ -34,6 +37,8 @@ class FormulaField : public continuation::Field {
   double period(const Vector& p, Vector* by_parameters) const override {
     return period_of(period_, p, by_parameters);
   }
+  /// See problems::require_period.
+  void require_period(const Vector& p) const { problems::require_period(period_, p); }
 
  private:
   std::vector<std::string> names_;

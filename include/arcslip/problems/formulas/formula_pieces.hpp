@@ -8,7 +8,7 @@
 // matter.
 
 #include "arcslip/continuation/cycles/piecewise_cycle.hpp"
-#include "arcslip/problems/formulas/formula_problem.hpp"
+#include "arcslip/problems/formulas/formula_field.hpp"
 
 namespace arcslip::problems {
 
@@ -34,6 +34,10 @@ class FormulaPieces : public continuation::PiecewiseField {
     scale_(u, p, unknowns, parameters);
   }
   double turn(Index unknown) const override { return turns_[static_cast<std::size_t>(unknown)]; }
+  /// See problems::require_period; without one nothing is required.
+  void require_period(const Vector& p) const {
+    if (period_) problems::require_period(*period_, p);
+  }
 
  private:
   struct Piece {
@@ -48,6 +52,7 @@ class FormulaPieces : public continuation::PiecewiseField {
   std::vector<double> turns_;
   std::vector<std::string> parameters_;
   FormulaScale scale_;
+  std::optional<Tape> period_;  // of p
   std::vector<std::string> piece_names_;
   std::vector<Piece> pieces_;
 };
