@@ -167,6 +167,16 @@ def test_a_branch_that_breaks_off_before_its_start_is_not_complete():
     assert branch.summary["first_stop"] == "no_value" and branch["lambda"][0] == pytest.approx(1, abs=1e-8)
 
 
+@pytest.mark.parametrize("name", ["type", "regime", "unstable", "arclength", "iterations", "residual", "point", "label"])
+def test_a_name_that_results_have_is_refused(name):
+    said = f"^'{name}': results have a column of this name; expected another name"
+    for parts in ({"observables": {name: lambda u, p: u[0]}}, {"unknowns": (name,)}):
+        with pytest.raises(ValueError, match=said):
+            arcslip.trace(lambda u, p: u - 1.0, [1.0], {"p": 0.0}, **parts)
+    with pytest.raises(ValueError, match=said):
+        arcslip.trace(lambda u, p: u - 1.0, [1.0], {name: 0.0})
+
+
 class Broken(Exception):
     pass
 

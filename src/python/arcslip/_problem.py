@@ -7,6 +7,7 @@ import numpy as np
 from . import _core
 
 _MOST_NAMED = 20  # unknowns that are columns without having been named
+_OF_RESULTS = {"point", "type", "label", "regime", "unstable", "arclength", "iterations", "residual"}
 
 
 class Problem:
@@ -201,6 +202,9 @@ class Prepared:
             self.observables = lambda u, *_: {"norm": np.sqrt(u @ u / len(u))}
         self.observed = [] if self.observables is None else self._names_observed()
         all_names = [*self.names, *self.unknowns, *self.observed]
+        own = [name for name in all_names if name in _OF_RESULTS]
+        if own:
+            raise ValueError(f"'{own[0]}': results have a column of this name; expected another name")
         twice = {name for name in all_names if all_names.count(name) > 1}
         if twice:
             raise ValueError(f"'{sorted(twice)[0]}': two columns have this name")
