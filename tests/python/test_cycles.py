@@ -25,6 +25,10 @@ def test_cycles_of_a_function_are_its_circles():
     assert np.abs(orbit["u0"] ** 2 + orbit["u1"] ** 2 - 2).max() < 1e-5
     with pytest.raises(IndexError):
         branch.orbit(len(branch))
+    assert branch.orbit(np.int64(1))["t"][-1] == branch["T"][1]
+    for row in (1.5, 1.0, "1"):
+        with pytest.raises(TypeError, match="^point: expected a row, an integer, or one of special, got "):
+            branch.orbit(row)
 
 
 def test_a_model_settles_and_its_period_doubles():

@@ -1,6 +1,7 @@
 """Branches as numpy arrays."""
 
 import json
+import operator
 import os
 
 import numpy as np
@@ -189,10 +190,6 @@ class Branch(_Columns):
         """
         return np.exp(_core.log_multipliers_of(self._core, self._row(point)))
 
-    def _row(self, point):
-        i = point["point"] if isinstance(point, dict) else int(point)
-        return i + len(self) if i < 0 else i
-
     def sample(self, n=1000):
         """Points at equal distances of arclength, between those of the branch.
 
@@ -359,7 +356,10 @@ class Branch(_Columns):
         return self._further(_core.resume(self._core, options, progress))
 
     def _row(self, point):
-        row = point["point"] if isinstance(point, dict) else int(point)
+        try:
+            row = operator.index(point["point"] if isinstance(point, dict) else point)
+        except TypeError:
+            raise TypeError(f"point: expected a row, an integer, or one of special, got {point!r}") from None
         if not -len(self) <= row < len(self):
             raise IndexError(f"point: {row} of a branch of {len(self)} points")
         return row % len(self)
