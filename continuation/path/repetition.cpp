@@ -49,18 +49,22 @@ bool stands_still(const Problem& problem, const std::vector<BranchPoint>& points
 
 std::optional<std::size_t> turns_in_place(const std::vector<BranchPoint>& points,
                                           const Tolerances& tolerances) {
-  constexpr int many = 20;  // of no curve on so short a way; one fold may be found a few times
-  if (points.empty() || !is_turn(points.back().type)) return std::nullopt;
+  constexpr int many = 20;   // turns of no curve on so short a way; one fold may be found a few times
+  constexpr int rows = 100;  // of any type, as of a point between two pieces that go back and forth
+  if (points.empty()) return std::nullopt;
   const double end = points.back().arclength;
   std::size_t first = points.size();
   int turns = 0;
+  int all = 0;
   for (std::size_t i = points.size();
        i-- > 0 && std::abs(end - points[i].arclength) <= tolerances.same_point;) {
+    ++all;
     if (!is_turn(points[i].type)) continue;
     first = i;
     ++turns;
   }
-  return turns >= many ? std::optional(first) : std::nullopt;
+  if (all >= rows) return points.size() - static_cast<std::size_t>(all);
+  return is_turn(points.back().type) && turns >= many ? std::optional(first) : std::nullopt;
 }
 
 }  // namespace arcslip::continuation

@@ -240,6 +240,11 @@ bool Stepper::finish(bool lands, double value) {
   if (lands) step_.there.parameters(corrector_.parameter()) = value;
   step_.slope_to = corrector_.direction();
   corrector_.difference(step_.there, step_.here, step_.chord);
+  // Held at a parameter whose last bits stay the same, as at an edge of what has a value, it has come back.
+  if (!lands && !(step_.normal.dot(step_.chord) > 0.5 * step_.distance)) {
+    signals_.contraction = 1;
+    return false;
+  }
   signals_.prediction_error = (step_.chord - predicted_).norm();
   work_ = step_.chord - 0.5 * step_.distance * (step_.slope_from + step_.slope_to);
   constexpr double closer = 3;  // than elsewhere

@@ -315,6 +315,7 @@ void Tracer::cross(int border, bool several) {
   watch_.begin();
   store(PointType::regime_switch, {}, arrival);
   corner_events(before);
+  stop_in_place();
   // Beyond the corner the parameter is to change as fast as before it, however steep the new piece is. The
   // last step may have been one of rounding, on the way to a value.
   state_.distance =

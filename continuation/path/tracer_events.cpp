@@ -68,6 +68,15 @@ bool Tracer::on_several_borders() const {
   return reached > 1 && leads_on;
 }
 
+/// Where nothing but rounding is passed.
+void Tracer::stop_in_place() {
+  if (turns_in_place(branch_.points, options_.tolerances))
+    stop(
+        Stop::repeats,
+        fmt::format("the branch turns again and again at {}: a corner or rounding that its steps do not pass",
+                    place()));
+}
+
 void Tracer::take_events(const Signs& before) {
   const CurvePoint& here = stepper_.here();
   const Passage passage{before, state_.signs, stepper_, watch_};
@@ -93,11 +102,7 @@ void Tracer::take_events(const Signs& before) {
     if (const auto known = came_round(problem_, branch_.points, parameter_, options_.tolerances))
       stop(Stop::repeats, "the branch came back to its point " + std::to_string(*known) +
                               " and not to its start: a step had gone over to another branch");
-    if (turns_in_place(branch_.points, options_.tolerances))
-      stop(Stop::repeats,
-           fmt::format(
-               "the branch turns again and again at {}: a corner or rounding that its steps do not pass",
-               place()));
+    stop_in_place();
     // Others may stand for a while, as sliding does under the force that it needs, and go on.
     if (!options_.symmetries.empty() &&
         stands_still(problem_, branch_.points, parameter_, options_.tolerances))

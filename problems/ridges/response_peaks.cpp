@@ -326,6 +326,8 @@ std::optional<ResponsePeak> ResponsePeaks::next_to(const Guess& guess, ResponseP
 Guess ResponsePeaks::beside(const Branch& branch, std::size_t i, int way) const {
   constexpr double nearest = 1e-9;  // in the problem's scale
   constexpr double farthest = 1e-6;
+  constexpr double quickly = 0.1;  // a step takes this part of the way that is left, or more where it fails
+  constexpr double slowly = 0.9;
   const BranchPoint& point = branch.points[i];
   continuation::Corrector corrector(*response_.problem, along_, {});
   continuation::CurvePoint origin = corrector.make_point();
@@ -343,11 +345,17 @@ Guess ResponsePeaks::beside(const Branch& branch, std::size_t i, int way) const 
   }
   const Vector normal = chord.normalized();
   double distance = chord.norm();
-  for (continuation::CurvePoint next = near; distance > 10 * nearest; distance *= 0.1) {
+  double nearer = quickly;
+  for (continuation::CurvePoint next = near; distance > 10 * nearest && nearer < slowly;) {
     corrector.difference(near, origin, chord);
-    corrector.displace(origin, 0.1 * chord, next);
-    if (corrector.correct(next, origin, normal, 0.1 * distance) != continuation::Correction::converged) break;
-    near = next;
+    corrector.displace(origin, nearer * chord, next);
+    if (corrector.correct(next, origin, normal, nearer * distance) == continuation::Correction::converged) {
+      near = next;
+      distance *= nearer;
+      nearer = quickly;
+    } else {
+      nearer = std::sqrt(nearer);
+    }
   }
   if (!(distance < farthest)) throw std::runtime_error("no solution beside a corner");
   return {near.unknowns, near.parameters, point.regime, {}};

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
 
@@ -149,6 +151,12 @@ StudyStore::~StudyStore() {
 
 void StudyStore::begin(const StudyCase& study) {
   const std::string temporary = fmt::format("{}.{}.tmp", path_, getpid());
+  // SQLite tries to read what it cannot write, and tells why that fails.
+  std::FILE* const file = std::fopen(temporary.c_str(), "wb");
+  if (file == nullptr)
+    throw OutputError(
+        fmt::format("{}: cannot be written: {}", path_, std::generic_category().message(errno)));
+  std::fclose(file);
   try {
     {
       Database database(temporary);

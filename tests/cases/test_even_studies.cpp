@@ -125,3 +125,26 @@ TEST_CASE("Harmonics are added as a best preload of what lifts off asks for", "[
   CHECK(result.harmonics[1] == 0);
   CHECK(std::is_sorted(result.harmonics.begin() + 1, result.harmonics.end()));
 }
+
+TEST_CASE("A study holds beside a corner to which the response bends sharply", "[study][even]") {
+  const TemporaryFolder folder;
+  double before = 0;
+  for (const char* range : {"from = 0.05\nto = 10.0\n", "from = 0.5\nto = 3.0\n"}) {
+    const StudyCase study = read_study(folder.write(
+        "case.toml",
+        std::string("[system]\nmodel = \"spring_mass\"\n"
+                    "base = { mass = [1.0, 1.0], stiffness = [1.0, 1.0], contact = 2, load = [0.0, "
+                    "1.0] }\ndamper = { mass = [0.2], stiffness = [4.0] }\ncontact_stiffness = 2\n"
+                    "damping = { base = 0.01, damper = 0.01 }\nforce = 1.0\nharmonics = 5\n"
+                    "[study]\nparameter = \"P\"\neta = [0.2, 4]\n") +
+            range));
+    const StudyDesign design = study.design(0);
+    const PreloadStudy result = study_preload(study, design);
+    INFO(result.failure);
+    REQUIRE(result.optimum);
+    const Peak& best = result.optimum->peak;
+    CHECK_THAT(highest_response(design.system, best.preload, design.range), WithinRel(best.Y, 1e-9));
+    if (before > 0) CHECK_THAT(best.preload, WithinRel(before, 1e-7));
+    before = best.preload;
+  }
+}

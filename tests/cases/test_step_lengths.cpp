@@ -189,3 +189,25 @@ start = 1.72
 )case",
                {0.005, 0.03633, 0.1, 0.264}, "w", 1.73739334, 1e-8);
 }
+
+TEST_CASE("A branch ends once at the edge of what has a value", "[model]") {
+  for (const double step : {0.03, 0.1}) {
+    INFO(step);
+    const auto all = traced_of(R"case([model.parameters]
+mu = 0
+[model.equations]
+x = "sqrt(0.3 - mu) - x"
+[model.start]
+x = 0.5
+[branch]
+parameter = "mu"
+from = 0
+to = 1
+)case" + with_steps(step));
+    REQUIRE(all.size() == 1);
+    const Branch& branch = all[0].branch;
+    CHECK(!branch.complete());
+    CHECK(branch.points.size() < 100);
+    CHECK_THAT(branch.points.back().parameters(0), WithinAbs(0.3, 1e-12));
+  }
+}

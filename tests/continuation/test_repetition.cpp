@@ -86,3 +86,15 @@ TEST_CASE("A branch is told to turn in one place where it has many folds on no w
   for (std::size_t i = 0; i < points.size(); ++i) points[i].arclength = 1e-6 * static_cast<double>(i);
   CHECK(!turns_in_place(points));  // close folds of a curve that goes on
 }
+
+TEST_CASE("A branch is told to stay in one place where it has rows of any type there without end",
+          "[repetition]") {
+  std::vector<BranchPoint> points = {on_circle(1, PointType::regular), on_circle(1, PointType::regular)};
+  points.back().arclength = 0.1;
+  for (int i = 0; i < 99; ++i) {
+    CHECK(!turns_in_place(points));
+    points.push_back(on_circle(1, i % 2 == 0 ? PointType::regime_switch : PointType::peak));
+    points.back().arclength = 0.1;
+  }
+  CHECK(turns_in_place(points) == std::optional<std::size_t>(1));
+}

@@ -22,8 +22,9 @@ std::optional<std::size_t> came_round(const Problem& problem, const std::vector<
 bool stands_still(const Problem& problem, const std::vector<BranchPoint>& points, Index active,
                   const Tolerances& tolerances = {});
 
-/// From which point on the branch, whose last point is a fold, has done nothing but turn in one place: there
-/// are many folds on a way that is rounding. None where there is no such place.
+/// From which point on the branch, whose last point is a fold, has done nothing but turn in one place, or has
+/// had points of any type there without end: there are many on a way that is rounding. None where there is no
+/// such place.
 std::optional<std::size_t> turns_in_place(const std::vector<BranchPoint>& points,
                                           const Tolerances& tolerances = {});
 

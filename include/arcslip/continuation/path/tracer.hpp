@@ -66,6 +66,7 @@ class Tracer {
   bool leaves_range() const;
   void take();
   void take_events(const Signs& before);
+  void stop_in_place();
   void take_targets_around(bool turns);
   void take_target(const Target& target);
   void store_turn();
