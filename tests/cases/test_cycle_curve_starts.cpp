@@ -164,6 +164,16 @@ TEST_CASE("Curves are followed on which the second parameter stands still", "[cy
   CHECK(values_at(other, PointType::fold, "m").empty());
   for (const BranchPoint& point : other.branch.points)
     CHECK_THAT(value(other, point, "k"), WithinAbs(0, 1e-12));
+  // cycles of r^2 = m at x = 0, k = 0
+  const auto tori = from_hopf_points(
+      "x = \"m + x^2 - y^2 - z^2\"\ny = \"(k + x + x^2)*y - z\"\nz = \"y + (k + x + x^2)*z\"\n"
+      "[model.start]\nx = -0.28\n",
+      "m = -0.07\nk = 0.2\n", "parameters = [\"m\", \"k\"]\nwindow = [-1, 0.12]\nfrom = -0.5\nto = 0.22\n");
+  REQUIRE(kinds(tori) == Names{"tori"});
+  CHECK(tori[0].branch.complete());
+  check_values(values_at(tori[0], PointType::resonance_1_4, "m"), {1.0 / 32}, 1e-9);
+  check_values(values_at(tori[0], PointType::resonance_1_3, "m"), {1.0 / 18}, 1e-9);
+  CHECK(value(tori[0], tori[0].branch.points.back(), "m") == 0.12);
 }
 
 TEST_CASE("Curves of cycles are as good everywhere as where they begin", "[cycles]") {
