@@ -23,6 +23,11 @@ std::string why_not_whole(const continuation::Branch& branch) {
   return "";
 }
 
+std::string doubt_about(const continuation::Branch& branch) {
+  const std::string why = why_not_whole(branch);
+  return why.empty() ? branch.warning : why;
+}
+
 void RunProgress::take_up(const std::string& folder, const CasePlan& plan) {
   reached_ = read_checkpoint(folder, plan, journals_);
 }

@@ -17,6 +17,9 @@ bool has_more(const TracedBranch& traced);
 /// as good as any, and of a branch traced both ways both parts must have one.
 std::string why_not_whole(const continuation::Branch& branch);
 
+/// The same or, of one that is whole, what makes its special points doubtful.
+std::string doubt_about(const continuation::Branch& branch);
+
 /// To be told from one thread; another one may settle it at any moment.
 class RunProgress {
  public:

@@ -209,8 +209,7 @@ void Run::trace_request(std::size_t i, RunFiles& files, const std::string& folde
 void Run::report(const TracedBranch& traced, std::size_t number) {
   points_ += traced.surface ? traced.surface->charts.size() : traced.branch.points.size();
   if (!options_.quiet) show(described(traced, number));
-  const std::string why_not = why_not_whole(traced.branch);
-  const std::string& why = why_not.empty() ? traced.branch.warning : why_not;
+  const std::string why = doubt_about(traced.branch);
   if (why.empty()) return;
   complete_ = false;
   complain(fmt::format("arcslip: branch {}: {}", number, why));

@@ -35,9 +35,8 @@ FoundCycles traced_cycles(const std::shared_ptr<const continuation::Field>& fiel
     const continuation::Branch equilibria =
         both ? continuation::trace_both(problem, guess, unseen) : continuation::trace(problem, guess, unseen);
     if (equilibria.stop == continuation::Stop::no_start) throw std::invalid_argument(equilibria.explanation);
-    const std::string why_not = why_not_whole(equilibria);
     return {trace_cycles_leaving(field, {equilibria}, options, cycles, observer, follow),
-            why_not.empty() ? equilibria.warning : why_not};
+            doubt_about(equilibria)};
   }
   continuation::CycleStart start =
       settled_cycle(field, guess.unknowns, guess.parameters, settle, cycles, options.go_on);
