@@ -36,25 +36,20 @@ void require_departures(const OrbitProblem& problem, const Branch& branch, const
   }
 }
 
-bool is_at_rest(const OrbitProblem& problem, const BranchPoint& point) {
-  if (!problem.may_rest()) return false;
-  const Matrix orbit = problem.orbit(point.unknowns);
-  return orbit.rowwise().maxCoeff() == orbit.rowwise().minCoeff();
-}
-
 /// One way; `begin` traces up to where the observer says no. Of a branch that leaves a branch point, which
 /// cannot be corrected on the meshes that follow, the mark of this tells where it comes back.
 template <class Begin>
 Branch one_way(const OrbitProblem& problem, TraceOptions options, const OrbitOptions& orbits,
                const Observer& observer, const std::optional<OrbitMark>& left, const Begin& begin) {
   options.journal = nullptr;  // which has no meshes: the same work is done anew
+  // Frames, which are no pieces, do not change the determinant.
+  if (!options.branch_point_pairs) options.branch_point_pairs = !problem.field().sparse();
   end_with_kind(problem, options);
   MeshWatch meshes(problem, orbits);
   GrowthWatch growth(problem, options.parameter, orbits.tolerance);
   bool worn = false;
   bool told = false;
   bool grows = false;
-  bool rests = false;
   bool closes = false;
   const TimeBudget time(options);
   const Observer watching = [&](const BranchPoint& point) {
@@ -62,17 +57,13 @@ Branch one_way(const OrbitProblem& problem, TraceOptions options, const OrbitOpt
     worn = !meshes.serves(point);
     grows =
         !growth.goes_on({point.unknowns, point.parameters, point.regime, {}}, point.type == PointType::fold);
-    rests = !options.branch_point_pairs && is_at_rest(problem, point);
     closes = left && point.type == PointType::branch_point &&
              is_same(*left, mark_of(problem, point, index_of(problem.parameter_names(), options.parameter)));
-    return !told && !worn && !grows && !rests && !closes;
+    return !told && !worn && !grows && !closes;
   };
   Branch branch = begin(options, watching);
-  while (branch.stop == Stop::interrupted && (worn || rests) && !told && !grows && !closes) {
-    if (rests)
-      options.branch_point_pairs = true;  // as nothing bends, steps grow beyond what lies between two
-    rests = false;
-    if (std::exchange(worn, false) && !meshes.renew(branch, options)) {
+  while (branch.stop == Stop::interrupted && std::exchange(worn, false) && !told && !grows && !closes) {
+    if (!meshes.renew(branch, options)) {
       meshes.give_up(branch, options.parameter);
       return branch;
     }

@@ -24,7 +24,16 @@ bool MeshWatch::serves(const BranchPoint& point) {
   if (point.type == PointType::branch_point) singular_ = point.arclength;
   if (point.arclength == singular_ || point.type == PointType::event) return true;  // which may be the end
   return orbits_.mesh_error(u, point.regime) <= options_.tolerance &&
-         orbits_.phase_grip(u, point.regime) > grip && apart_grip > grip;
+         orbits_.phase_grip(u, point.regime) > grip && apart_grip > grip && !is_lopsided(point);
+}
+
+/// Whether there is a mesh with a symmetry that this one lacks.
+bool MeshWatch::is_lopsided(const BranchPoint& point) const {
+  if (point.type == PointType::start) return false;  // which may be a branch point
+  const OrbitFrame& frame = orbits_.frame(point.regime);
+  const Matrix orbit = orbits_.orbit(point.unknowns);
+  return frame.mesh.is_lopsided(orbit, range_on(frame, orbit)) &&
+         renewed_mesh(frame, orbit, MeshSymmetry::nearly).has_value();
 }
 
 BasePoint MeshWatch::of_orbits(const CurvePoint& point) const {
@@ -32,17 +41,26 @@ BasePoint MeshWatch::of_orbits(const CurvePoint& point) const {
   return curve_->split(point.unknowns, point.parameters, point.regime);
 }
 
-/// A frame for an orbit; none where no mesh of this resolution is good enough.
-std::optional<Regime> MeshWatch::renewed(const BasePoint& at) const {
+/// A mesh for an orbit; none where none of this resolution is good enough.
+std::optional<OrbitMesh> MeshWatch::renewed_mesh(const OrbitFrame& frame, const Matrix& orbit,
+                                                 MeshSymmetry symmetry) const {
   // or the next point would ask again; a finer mesh starts all over, which takes long where it is large
   const double margin = orbits_.field().sparse() ? 0.5 : 0.3;
+  const Vector range = range_on(frame, orbit);
+  OrbitMesh mesh = frame.mesh.equidistributed(orbit, range, orbits_.resolution(), symmetry);
+  if (mesh.errors(frame.mesh.carried(orbit, mesh), range).maxCoeff() > margin * options_.tolerance)
+    return std::nullopt;
+  return mesh;
+}
+
+/// A frame for an orbit; none where no mesh of this resolution is good enough.
+std::optional<Regime> MeshWatch::renewed(const BasePoint& at) const {
   const OrbitFrame& frame = orbits_.frame(at.regime);
   const Matrix orbit = orbits_.orbit(at.unknowns);
-  const Vector range = range_on(frame, orbit);
-  const OrbitMesh mesh = frame.mesh.equidistributed(orbit, range, orbits_.resolution());
-  const Matrix carried = frame.mesh.carried(orbit, mesh);
-  if (mesh.errors(carried, range).maxCoeff() > margin * options_.tolerance) return std::nullopt;
-  return orbits_.add_frame(mesh, carried, at.parameters);
+  std::optional<OrbitMesh> mesh = renewed_mesh(frame, orbit, MeshSymmetry::nearly);
+  if (!mesh) mesh = renewed_mesh(frame, orbit, MeshSymmetry::none);
+  if (!mesh) return std::nullopt;
+  return orbits_.add_frame(*mesh, frame.mesh.carried(orbit, *mesh), at.parameters);
 }
 
 /// Whether a point has the signs that are known of it.

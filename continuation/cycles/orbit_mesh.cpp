@@ -1,6 +1,7 @@
 #include "arcslip/continuation/cycles/orbit_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace arcslip::continuation {
@@ -118,30 +119,118 @@ Vector OrbitMesh::errors(const Eigen::Ref<const Matrix>& values, const Vector& s
   return result;
 }
 
-OrbitMesh OrbitMesh::equidistributed(const Matrix& values, const Vector& scale, Index resolution) const {
-  if (rule_.waves() > 0) return {CollocationRule::trigonometric(static_cast<int>(resolution)), 1};
+/// How densely intervals are to lie, constant between borders from 0 to 1.
+struct OrbitMesh::Density {
+  std::vector<double> borders;
+  std::vector<double> values;
+
+  double at(double s) const {
+    const auto beyond = std::upper_bound(borders.begin() + 1, borders.end() - 1, s);
+    return values[static_cast<std::size_t>(beyond - borders.begin()) - 1];
+  }
+  double mean() const {
+    double sum = 0;
+    for (std::size_t j = 0; j < values.size(); ++j) sum += values[j] * (borders[j + 1] - borders[j]);
+    return sum;
+  }
+};
+
+namespace {
+
+/// What takes an orbit's places to those where it is the same but for signs or the order of unknowns.
+struct PlaceSymmetry {
+  double (*place)(double);
+  Index intervals;  ///< their number in meshes that have it is a multiple of this one
+};
+
+constexpr std::array<PlaceSymmetry, 2> symmetries{{
+    {[](double s) { return s < 0.5 ? s + 0.5 : s - 0.5; }, 2},
+    {[](double s) { return 1 - s; }, 1},
+}};
+
+/// The larger density of those at a place and where a symmetry takes it to.
+template <class Density>
+Density joined(const Density& density, const PlaceSymmetry& symmetry) {
+  Density both{density.borders, {}};
+  std::vector<double>& borders = both.borders;
+  for (const double border : density.borders) borders.push_back(symmetry.place(border));
+  std::sort(borders.begin(), borders.end());
+  borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
+  for (std::size_t j = 0; j + 1 < borders.size(); ++j) {
+    const double s = 0.5 * (borders[j] + borders[j + 1]);
+    both.values.push_back(std::max(density.at(s), density.at(symmetry.place(s))));
+  }
+  return both;
+}
+
+/// By how much the ways that an orbit goes in equal parts of its time differ from those where a symmetry
+/// takes these to: 0 to 1.
+double asymmetry(const OrbitMesh& mesh, const Matrix& values, const Vector& scale,
+                 const PlaceSymmetry& symmetry) {
+  const Index count = 2 * mesh.intervals();
+  const Matrix at = mesh.at(values, mesh.find(Vector::LinSpaced(count + 1, 0, 1)));
+  const Matrix ways = scale.cwiseInverse().asDiagonal() * (at.rightCols(count) - at.leftCols(count));
+  const Vector lengths = ways.colwise().norm();
+  double difference = 0;
+  for (Index k = 0; k < count; ++k) {
+    const double middle = symmetry.place((static_cast<double>(k) + 0.5) / static_cast<double>(count));
+    difference += std::abs(lengths(k) - lengths(static_cast<Index>(middle * static_cast<double>(count))));
+  }
+  return 0.5 * difference / lengths.sum();
+}
+
+}  // namespace
+
+OrbitMesh::Density OrbitMesh::density(const Matrix& values, const Vector& scale) const {
   constexpr double least = 0.2;   // of the mean density: what is smooth now may not be at the next point
   constexpr double graded = 0.5;  // of the density next to it: no interval is much longer than its neighbour
   const Index count = this->intervals();
   Vector density = highest_derivatives(values, scale).array().pow(1.0 / (rule_.degree() + 1));
   for (Index j = 1; j < count; ++j) density(j) = std::max(density(j), graded * density(j - 1));
   for (Index j = count - 1; j-- > 0;) density(j) = std::max(density(j), graded * density(j + 1));
-  Vector lengths = borders_.tail(count) - borders_.head(count);
-  const double mean = density.dot(lengths);
-  if (!(mean > 0)) return {rule_, resolution};
+  const double mean = density.dot(borders_.tail(count) - borders_.head(count));
   density = density.cwiseMax(least * mean);
-  Vector sums = Vector::Zero(count + 1);
-  for (Index j = 0; j < count; ++j) sums(j + 1) = sums(j) + density(j) * lengths(j);
+  return {{borders_.begin(), borders_.end()}, {density.begin(), density.end()}};
+}
+
+OrbitMesh OrbitMesh::equidistributed(const Matrix& values, const Vector& scale, Index resolution,
+                                     MeshSymmetry symmetry) const {
+  if (rule_.waves() > 0) return {CollocationRule::trigonometric(static_cast<int>(resolution)), 1};
+  constexpr double nearly = 0.12;  // of an asymmetry between 0 and 1
+  Density density = this->density(values, scale);
+  if (!(density.mean() > 0)) return {rule_, resolution};
+  for (const PlaceSymmetry& other : symmetries) {
+    if (symmetry == MeshSymmetry::none || resolution % other.intervals != 0) continue;
+    if (asymmetry(*this, values, scale, other) < nearly) density = joined(density, other);
+  }
+  const double each = density.mean() / static_cast<double>(resolution);
   Vector borders(resolution + 1);
-  Index j = 0;
+  std::size_t j = 0;
+  double before = 0;  // intervals up to the density's border j
   for (Index i = 0; i <= resolution; ++i) {
-    const double wanted = sums(count) * static_cast<double>(i) / static_cast<double>(resolution);
-    while (j + 1 < count && sums(j + 1) < wanted) ++j;
-    borders(i) = borders_(j) + (wanted - sums(j)) / density(j);
+    const double wanted = each * static_cast<double>(i);
+    const auto of_piece = [&] { return density.values[j] * (density.borders[j + 1] - density.borders[j]); };
+    for (; j + 1 < density.values.size() && before + of_piece() < wanted; ++j) before += of_piece();
+    borders(i) = density.borders[j] + (wanted - before) / density.values[j];
   }
   borders(0) = 0;
   borders(resolution) = 1;
   return {rule_, borders};
+}
+
+bool OrbitMesh::is_lopsided(const Matrix& values, const Vector& scale) const {
+  if (rule_.waves() > 0) return false;
+  constexpr double nearly = 0.1;   // less than what makes meshes symmetric
+  constexpr double equal = 1e-12;  // of a period: rounding
+  const auto has = [&](double s) {
+    const auto beyond = std::lower_bound(borders_.begin(), borders_.end(), s - equal);
+    return beyond != borders_.end() && *beyond < s + equal;
+  };
+  return std::any_of(symmetries.begin(), symmetries.end(), [&](const PlaceSymmetry& symmetry) {
+    return intervals() % symmetry.intervals == 0 &&
+           !std::all_of(borders_.begin(), borders_.end(), [&](double s) { return has(symmetry.place(s)); }) &&
+           asymmetry(*this, values, scale, symmetry) < nearly;
+  });
 }
 
 }  // namespace arcslip::continuation

@@ -189,7 +189,7 @@ w = "eps*(v + 0.7 - 0.8*w)"
   const auto curves = traced_of(
       neuron +
           "curve = \"cycle_fold\"\nparameters = [\"I\", \"eps\"]\nwindow = [0, 0.8]\nfrom = 0.07\nto = 1\n",
-      {"cycles.intervals=10"});
+      {"cycles.intervals=18"});
   REQUIRE(curves.size() == 1);
   const TracedBranch& folds = curves[0];
   CHECK(folds.branch.stop == Stop::left_regime);  // where they shrink

@@ -32,8 +32,6 @@ v = "-d*v - (a + q*cos(2*t))*x"
 parameter = "a"
 from = -1
 to = 5
-[continuation]
-branch_point_pairs = true
 )case";
 
 }  // namespace

@@ -190,6 +190,62 @@ start = 1.72
                {0.005, 0.03633, 0.1, 0.264}, "w", 1.73739334, 1e-8);
 }
 
+TEST_CASE("A bubble of cycles closes where its orbits become symmetric", "[cycles]") {
+  for (const double step : {0.005, 0.02, 0.0667, 0.2, 0.3}) {
+    INFO(step);
+    const auto all = traced_of(R"case([model]
+kind = "forced"
+period = "2*pi"
+[model.parameters]
+F = 0.5
+d = 0.4
+[model.equations]
+x = "v"
+v = "F*cos(t) - d*v - x^3"
+[branch]
+parameter = "F"
+from = 0.1
+to = 12
+switching = true
+[cycles]
+settle = 400
+doublings = 0
+)case" + with_steps(step));
+    REQUIRE(all.size() == 2);
+    CHECK(all[1].branch.stop == Stop::closed_loop);
+    // where the half-period map has the multiplier -1, by DOP853 to 1e-13
+    check_values(values_at(all[0], PointType::branch_point, "F"), {2.92134106, 11.91784506}, 1e-7);
+    check_values(values_at(all[1], PointType::branch_point, "F"), {11.91784506}, 1e-7);
+    check_values(values_at(all[1], PointType::period_doubling, "F"),
+                 {7.9898554, 10.2117192, 10.2117192, 7.9898554}, 1e-6);
+    CHECK(values_at(all[1], PointType::fold, "F").empty());
+  }
+}
+
+TEST_CASE("Cycles at which two others leave at once are branch points", "[cycles]") {
+  for (const double step : {0.02, 0.1, 0.3}) {
+    INFO(step);
+    const auto all = traced_of(R"case([model]
+kind = "forced"
+period = "2*pi"
+[model.parameters]
+mu = -0.5
+[model.equations]
+x = "-x + cos(t)"
+p = "mu*p - p^3 - 3*p*q^2"
+q = "mu*q - q^3 - 3*q*p^2"
+[branch]
+parameter = "mu"
+from = -0.5
+to = 0.5
+[cycles]
+settle = 100
+)case" + with_steps(step));
+    REQUIRE(all.size() == 1);
+    check_values(values_at(all[0], PointType::branch_point, "mu"), {0}, 1e-9);
+  }
+}
+
 TEST_CASE("A branch ends once at the edge of what has a value", "[model]") {
   for (const double step : {0.03, 0.1}) {
     INFO(step);

@@ -19,6 +19,9 @@ struct OrbitPlaces {
   Matrix weights;
 };
 
+/// Whether intervals lie as half a period later, and as mirrored in the middle, where errors nearly do.
+enum class MeshSymmetry { nearly, none };
+
 /// Values at the nodes are n x `nodes()`, those of an interval side by side, its last being the first of the
 /// next one.
 class OrbitMesh {
@@ -59,10 +62,18 @@ class OrbitMesh {
   /// trigonometric polynomial the sum of its last amplitudes, a sixth of all but at least three.
   Vector errors(const Eigen::Ref<const Matrix>& values, const Vector& scale) const;
 
-  /// A mesh of its kind of this resolution, on the intervals of which this orbit's errors would be alike.
-  OrbitMesh equidistributed(const Matrix& values, const Vector& scale, Index resolution) const;
+  /// A mesh of its kind of this resolution, on the intervals of which this orbit's errors would be alike:
+  /// those of an orbit that nearly has a symmetry have it.
+  OrbitMesh equidistributed(const Matrix& values, const Vector& scale, Index resolution,
+                            MeshSymmetry symmetry = MeshSymmetry::nearly) const;
+
+  /// Whether it lacks a symmetry that this orbit nearly has. Branches that differ by it meet where meshes
+  /// have it, and pass each other within the mesh's error elsewhere.
+  bool is_lopsided(const Matrix& values, const Vector& scale) const;
 
  private:
+  struct Density;
+  Density density(const Matrix& values, const Vector& scale) const;
   Vector highest_derivatives(const Eigen::Ref<const Matrix>& values, const Vector& scale) const;
 
   CollocationRule rule_;
