@@ -223,7 +223,7 @@ bool Tracer::find_events() {
   if (!search.solved) return false;
   if (branch_.points.size() > 2 || state_.arclength > 0)
     closing_ = stepper_.prober().passes(state_.start, options_.tolerances.same_point);
-  if (closing_ && !events_.empty() && events_.front().s < *closing_) closing_.reset();
+  if (closing_ && is_told_before(*closing_)) closing_.reset();
   if (closing_) events_.clear();
   if (events_.empty() && !closing_) return landing_ != nullptr || !passes_target(stepper_.step().there, 0);
   const double s = closing_ ? *closing_ : events_.front().s;

@@ -68,6 +68,27 @@ bool Tracer::on_several_borders() const {
   return reached > 1 && leads_on;
 }
 
+/// Whether the step has events to tell before it comes to the start at s. Those that are there, but for how
+/// well both are located, were told as the branch began, or are taken to be where its points are not here; a
+/// border there is none that it goes over.
+bool Tracer::is_told_before(double s) const {
+  if (events_.empty() || events_.front().s >= s) return false;
+  const double same = options_.tolerances.same_point;
+  if ((s - events_.front().s) * stepper_.step().slope_from.norm() > same) return true;
+  if (branch_.points.empty() || branch_.points.front().arclength > same) return false;
+  const auto began_with = [&](const Event& event) {
+    return std::any_of(branch_.points.begin(), branch_.points.end(), [&](const BranchPoint& point) {
+      if (point.arclength > same) return false;
+      if (event.type == PointType::fold) return is_turn(point.type);
+      return point.type == event.type && (event.type != PointType::event ||
+                                          point.label == watch_.label(static_cast<std::size_t>(event.index)));
+    });
+  };
+  return std::any_of(events_.begin(), events_.end(), [&](const Event& event) {
+    return event.told && !event.kind->ends_regime && !began_with(event);
+  });
+}
+
 /// Where nothing but rounding is passed.
 void Tracer::stop_in_place() {
   if (turns_in_place(branch_.points, options_.tolerances))

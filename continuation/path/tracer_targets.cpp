@@ -65,7 +65,7 @@ void Tracer::forget_tries() {
 bool Tracer::try_landing() {
   const auto lands = [this] { return stepper_.attempt_landing(landing_->value) && find_events(); };
   const auto ends_at_event = [this](Hold hold, double distance) {
-    return stepper_.attempt(hold, distance) && find_events() && !events_.empty();
+    return stepper_.attempt(hold, distance) && find_events() && (!events_.empty() || closing_);
   };
   const bool has_landed = lands();
   const double distance = stepper_.step().distance;

@@ -1,4 +1,4 @@
-// Births and mergers of isolas on curves of folds, against closed forms.
+// Isolas, and their births and mergers on curves of folds, against closed forms.
 
 #include <cmath>
 
@@ -131,4 +131,25 @@ TEST_CASE("Where folds meet the trivial branch of a symmetry nothing is born") {
   INFO(curve.explanation);
   CHECK(of_type(curve, PointType::isola_centre).empty());
   CHECK(of_type(curve, PointType::simple_bifurcation).empty());
+}
+
+TEST_CASE("An isola that begins on one of its folds, or beside it, closes there and tells each once") {
+  const ScalarProblem circle(
+      {"p"}, [](double u, const Vector& p) { return 1 - (p(0) - 3) * (p(0) - 3) - u * u; },
+      [](double u, const Vector&) { return -2 * u; },
+      {[](double, const Vector& p) { return -2 * (p(0) - 3); }});
+  const double angle = GENERATE(0.0, 1e-9, -1e-9, 1e-8, -1e-8, 5e-8, -5e-8, 1e-7, -1e-7, 1e-6, -1e-6);
+  const double from = GENERATE(1.0, 2.0);
+  CAPTURE(angle, from);
+  for (const double max_step : {0.2, 0.1, 0.05, 0.02}) {
+    TraceOptions options = over("p", from, 5);
+    options.max_step = max_step;
+    const Guess guess{vector_of({std::sin(angle)}), vector_of({3 - std::cos(angle)}), {}, {}};
+    const Branch isola = from == 2 ? trace(circle, guess, options) : trace_both(circle, guess, options);
+    INFO(isola.explanation);
+    CHECK(isola.stop == Stop::closed_loop);
+    CHECK(isola.first_stop == Branch{}.first_stop);
+    CHECK(of_type(isola, PointType::fold).size() == 2);
+    CHECK_THAT(isola.points.back().unknowns(0), WithinAbs(isola.points.front().unknowns(0), 1e-10));
+  }
 }

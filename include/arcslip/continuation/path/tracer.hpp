@@ -63,6 +63,7 @@ class Tracer {
   void rest_before(const Target& target);
   double to_even_value(double distance, double rate) const;
   bool find_events();
+  bool is_told_before(double s) const;
   bool leaves_range() const;
   void take();
   void take_events(const Signs& before);
