@@ -142,16 +142,21 @@ bool Tracer::passes_target(const CurvePoint& point, double tolerance) const {
 }
 
 /// Takes the values at an event on which no point will be put: those that it lies on, that the step has
-/// passed, or that lie beyond a turn.
+/// passed, or that lie beyond a turn. At a turn on its first value, but for how well it is located, a branch
+/// goes back into the range.
 void Tracer::take_targets_around(bool turns) {
   if (turns) targets_.keep_taken(value(), options_.tolerances.on_target * parameter_scale());
   for (const Target* target : targets_.around(value(), options_.tolerances.same_value * parameter_scale())) {
     const double beyond = target->value - value();
     const bool is_bound = target->kind == Target::Kind::bound;
+    if (is_bound && turns) {
+      targets_.take(*target);
+      continue;
+    }
     const bool is_here = std::abs(beyond) <= options_.tolerances.on_target * parameter_scale();
     const bool is_passed = (target->value - state_.last_value) * beyond < 0;
-    const bool is_missed = turns && !is_bound && beyond * (value() - state_.last_value) > 0;
-    if (is_passed || is_missed || (is_here && !(is_bound && turns))) take_target(*target);
+    const bool is_missed = turns && beyond * (value() - state_.last_value) > 0;
+    if (is_passed || is_missed || is_here) take_target(*target);
     if (stopped_) return;
   }
 }

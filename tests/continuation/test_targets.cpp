@@ -180,6 +180,20 @@ TEST_CASE("A fold on the end of a range is told once, on either side of it by ro
   CHECK(of_type(branch, PointType::fold).size() == 1);
 }
 
+TEST_CASE("A fold on the first value of a range is passed, on either side of it by rounding") {
+  const ScalarProblem arch(
+      {"p"}, [](double x, const Vector& p) { return 1 - x * x - p(0); },
+      [](double x, const Vector&) { return -2 * x; }, {[](double, const Vector&) { return -1.0; }});
+  const double off = GENERATE(-3e-11, -1e-12, -1e-14, -2.3e-16, 0.0, 2.3e-16, 1e-14, 1e-12, 3e-11);
+  CAPTURE(off);
+  const Branch branch =
+      trace_both(arch, {vector_of({std::sqrt(0.5)}), vector_of({0.5})}, over("p", 1 + off, 0));
+  INFO(branch.explanation);
+  CHECK(branch.first_stop == Stop::reached_end);
+  CHECK(of_type(branch, PointType::fold).size() == 1);
+  CHECK_THAT(branch.points.front().unknowns(0), WithinAbs(-1, 1e-9));
+}
+
 TEST_CASE("A zero of a function of pieces where a branch starts is told once, whatever the last digit") {
   const double off = GENERATE(-1e-11, -1e-13, -2.3e-16, 0.0, 2.3e-16, 1e-13, 1e-11);
   const double end = GENERATE(-1.0, 1.0);
