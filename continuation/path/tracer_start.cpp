@@ -98,6 +98,7 @@ void Tracer::set_signs_of_zeros(bool is_ahead, bool is_only) {
     for (std::size_t i = 0; i < state_.signs.observables.size(); ++i)
       take_turn(state_.signs.observables[i], stepper_.at_here()[i].slope, ahead.monitors[i].slope);
   }
+  count_unstable_before(ahead.point, is_ahead || is_only);
   if (watch_.searched() == 0) return;
   watch_.look(ahead.point);
   for (std::size_t i = 0; i < watch_.searched(); ++i) {
@@ -109,6 +110,30 @@ void Tracer::set_signs_of_zeros(bool is_ahead, bool is_only) {
       state_.signs.functions[i] = 1;
     }
   }
+  watch_.look(stepper_.here());
+}
+
+/// The same of eigenvalues on the axis but for rounding: on the way that tells of them those are unstable
+/// before that are not ahead.
+void Tracer::count_unstable_before(const CurvePoint& ahead, bool tells) {
+  if (state_.signs.unstable < 0 || watch_.eigenvalues().size() == 0) return;
+  const std::vector<double>& rates = watch_.kept().front().rates;
+  const double near = options_.tolerances.rough * watch_.eigenvalues().cwiseAbs().maxCoeff();
+  const auto above = [&](double bound) {
+    return std::count_if(rates.begin(), rates.end(), [=](double rate) { return rate > bound; });
+  };
+  const Index least = above(near);
+  const Index most = above(-near);
+  if (least == most) return;
+  watch_.look(ahead);
+  Index unstable = least;
+  bool all_leave = watch_.eigenvalues().size() >= most;  // the axis, on which some may stay
+  for (Index i = least; i < most && all_leave; ++i) {
+    const double there = watch_.eigenvalues()(i).real();
+    all_leave = std::abs(there) > near;
+    unstable += static_cast<Index>((there > 0) != tells);
+  }
+  if (all_leave) state_.signs.unstable = static_cast<int>(unstable);
   watch_.look(stepper_.here());
 }
 

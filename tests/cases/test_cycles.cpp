@@ -328,3 +328,27 @@ TEST_CASE("Mistakes in what is asked of cycles are told with their place", "[cyc
       {"kind = \"forced\"", "kind = \"flow\"", ":4:10: ", "model.period: ", "only of kind = \"forced\"", ""}};
   for (const Mistake& mistake : mistakes) case_texts::check_refused(text, mistake);
 }
+
+TEST_CASE("A torus that begins where the branch of its cycles does is told", "[cycles]") {
+  const std::string pair = R"case(
+p = "mu*p - 0.3*q - p*(p^2 + q^2)"
+q = "mu*q + 0.3*p - q*(p^2 + q^2)"
+[branch]
+parameter = "mu"
+from = 0
+)case";
+  const std::string forced =
+      "[model]\nkind = \"forced\"\nperiod = \"2*pi\"\nparameters = { mu = 0 }\n"
+      "[model.equations]\nx = \"-x + cos(t)\"\n";
+  const std::string flow =
+      "[cycles]\nsettle = 50\n[model]\nparameters = { mu = 0 }\nstart = { x = 1 }\n"
+      "[model.equations]\nx = \"x*(1 - x^2 - y^2) - y\"\n"
+      "y = \"y*(1 - x^2 - y^2) + x\"\n";
+  for (const std::string& system : {forced, flow}) {
+    for (const std::string end : {"1", "-1"}) {
+      CAPTURE(system, end);
+      const auto all = traced_of(system + pair + "to = " + end);
+      check_values(all_values_at(all, PointType::neimark_sacker, "mu"), {0}, 1e-9);
+    }
+  }
+}

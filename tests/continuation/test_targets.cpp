@@ -6,6 +6,7 @@
 #include "arcslip/continuation/path/trace.hpp"
 #include "catch.hpp"
 #include "engine_problems.hpp"
+#include "flow.hpp"
 #include "scalar_problem.hpp"
 
 using namespace arcslip;
@@ -207,4 +208,21 @@ TEST_CASE("A zero of a function of pieces where a branch starts is told once, wh
     return of_type(branch, PointType::event).size();
   };
   CHECK(told() == 1);
+}
+
+TEST_CASE("A pair on the axis where a branch starts is told once, on either side of it by rounding") {
+  const auto flow = make_flow(2, {"p"}, [](const auto& u, const auto& p, auto& out) {
+    out[0] = p[0] * u[0] - 0.3 * u[1] - u[0] * u[0] * u[0];
+    out[1] = p[0] * u[1] + 0.3 * u[0] - u[1] * u[1] * u[1];
+  });
+  const double off = GENERATE(-1e-12, -1e-14, -2.3e-16, 0.0, 2.3e-16, 1e-14, 1e-12);
+  const double end = GENERATE(-1.0, 1.0);
+  CAPTURE(off, end);
+  const Guess guess{vector_of({0, 0}), vector_of({off}), {}, {}};
+  for (const Branch& branch :
+       {trace(*flow, guess, over("p", off, end)), trace_both(*flow, guess, over("p", -end, end))}) {
+    CHECK(branch.complete());
+    CHECK(of_type(branch, PointType::hopf).size() == 1);
+    CHECK(branch.points.back().unstable == (end > 0 ? 2 : 0));
+  }
 }

@@ -48,6 +48,7 @@ class Tracer {
   Correction start_singular(const Guess& guess, double forward, bool is_found);
   bool start_from_afar(const Guess& guess, double forward);
   void set_signs_of_zeros(bool is_ahead, bool is_only);
+  void count_unstable_before(const CurvePoint& ahead, bool tells);
   bool out_of_time() const;
   void watch_clock() const;
   void halt(Stop reason);
