@@ -162,6 +162,20 @@ void check_names(const FormulaSystem& system) {
             "there is no unknown or parameter of this name");
 }
 
+double magnitude_within(double from, double to) {
+  constexpr double little = 0.01;
+  const double largest = std::max(std::abs(from), std::abs(to));
+  return largest > 0 && largest < little ? largest : 1;
+}
+
+void scale_within(FormulaSystem& system, const std::string& parameter, double from, double to) {
+  const double magnitude = magnitude_within(from, to);
+  const auto is_it = [&](const FormulaParameter& one) { return one.name == parameter; };
+  if (magnitude < 1 && std::any_of(system.parameters.begin(), system.parameters.end(), is_it) &&
+      std::none_of(system.scale.begin(), system.scale.end(), is_it))
+    system.scale.push_back({parameter, magnitude});
+}
+
 FormulaScale::FormulaScale(const FormulaSystem& system, const std::vector<std::string>& unknowns,
                            const std::vector<std::string>& parameters)
     : unknowns_(Vector::Ones(std::ssize(unknowns))), parameters_(Vector::Ones(std::ssize(parameters))) {

@@ -311,18 +311,11 @@ FormulaSystem read_formulas(const TomlDocument& document) {
   return system;
 }
 
-/// Of continued parameters that stay within a tenth of the longest step: as far as they go.
+/// By how far parameters are continued.
 void scale_by_ranges(const TomlDocument& document, FormulaSystem& system) {
-  constexpr double little = 0.01;
   const toml::node_view<const toml::node> branch = document.root()["branch"];
   const auto add = [&](const auto& name, const auto& from, const auto& to) {
-    const std::string of = name.value_or(std::string());
-    const double largest = std::max(std::abs(from.value_or(1.0)), std::abs(to.value_or(1.0)));
-    const auto is_it = [&](const FormulaParameter& one) { return one.name == of; };
-    if (largest > 0 && largest < little &&
-        std::any_of(system.parameters.begin(), system.parameters.end(), is_it) &&
-        std::none_of(system.scale.begin(), system.scale.end(), is_it))
-      system.scale.push_back({of, largest});
+    scale_within(system, name.value_or(std::string()), from.value_or(1.0), to.value_or(1.0));
   };
   add(branch["parameter"], branch["from"], branch["to"]);
   add(branch["parameters"][0], branch["window"][0], branch["window"][1]);

@@ -168,6 +168,73 @@ def test_cycles_of_a_model_in_small_units_are_those_in_usual_ones():
     assert ends[1] == pytest.approx(ends[0], rel=1e-7)
 
 
+@pytest.mark.parametrize("r", [1e-3, 3e-9, 1e-9, 1e-12])
+def test_a_small_parameter_is_measured_against_its_range(r):
+    fold = 2 / 3**1.5
+    model = arcslip.Model({"x": f"a/{r!r} - x + x^3"}, {"a": 0.0})
+    own = (lambda u, p: p["a"] / r - u + u**3, [1.3247], {"a": -r}, "a")
+    case = {
+        "model": {"equations": {"x": f"a/{r!r} - x + x^3"}, "parameters": {"a": 0.0}},
+        "branch": {"parameter": "a", "from": -r, "to": r},
+    }
+    branches = [
+        arcslip.trace(model, parameter="a", range=(-r, r)),
+        *arcslip.trace_all(model, parameter="a", range=(-r, r)),
+        arcslip.trace(*own, range=(-r, r)),
+        *arcslip.run(case).branches,
+    ]
+    for branch in branches:
+        folds = [point["a"] / r for point in branch.special if point["type"] == "fold"]
+        assert sorted(folds) == pytest.approx([-fold, fold], rel=1e-9)
+        assert len(branch) == len(branches[0])
+
+
+@pytest.mark.parametrize("r", [1e-6, 1e-10])
+def test_orbits_over_a_small_parameter_are_those_over_another(r):
+    rate = f"(a/{r!r} - 0.5)"
+    flow = arcslip.Model({"x": f"{rate}*x - y - x*(x^2 + y^2)", "y": f"{rate}*y + x - y*(x^2 + y^2)"}, {"a": 0.0})
+    (cycles,) = arcslip.trace_cycles(flow, parameter="a", range=(0, r))
+    assert cycles["a"][0] / r == pytest.approx(0.5, rel=1e-4)  # of a small amplitude
+    assert cycles["x_max"][-1] == pytest.approx(0.5**0.5, rel=1e-6)
+    forced = arcslip.Model(
+        {"x": "v", "v": f"(F/{r!r})*cos(W*t) - 0.1*v - x - x^3"}, {"W": 1.6, "F": 0.0}, kind="forced", period="2*pi/W"
+    )
+    plain = arcslip.Model(
+        {"x": "v", "v": "F*cos(W*t) - 0.1*v - x - x^3"}, {"W": 1.6, "F": 0.0}, kind="forced", period="2*pi/W"
+    )
+    (small,) = arcslip.trace_cycles(forced, parameter="F", range=(0.01 * r, r), settle=200)
+    (usual,) = arcslip.trace_cycles(plain, parameter="F", range=(0.01, 1), settle=200)
+    folds = [[point["F"] for point in one.special if point["type"] == "fold"] for one in (small, usual)]
+    assert len(folds[1]) == 2
+    assert np.array(folds[0]) / r == pytest.approx(folds[1], rel=1e-6)
+    bratu = arcslip.Model(
+        {"u": "v", "v": f"-(lam/{r!r})*exp(u)"},
+        {"lam": 0.0},
+        kind="boundary",
+        interval={"x": (0, 1)},
+        conditions=["u_left", "u_right"],
+    )
+    (branch,) = arcslip.trace_boundary(bratu, parameter="lam", range=(0.1 * r, 4 * r))
+    assert [point["lam"] / r for point in branch.special if point["type"] == "fold"] == pytest.approx([3.513830719125])
+
+
+@pytest.mark.parametrize("r", [1e-6, 1e-10])
+def test_a_small_second_parameter_is_measured_against_its_range(r):
+    model = arcslip.Model({"x": f"a + (b/{r!r})*x - x^3"}, {"a": -1.0, "b": r})
+    own = (lambda u, p: p["a"] + p["b"] / r * u - u**3, [-1.5], {"a": -1.0, "b": r})
+    for traced in (
+        arcslip.trace(model, parameter="a", range=(-1, 1)),
+        arcslip.trace(*own, parameter="a", range=(-1, 1)),
+    ):
+        row = [point["type"] for point in traced.special].index("fold")
+        curve = traced.continue_in_two(traced.special[row]["point"], "b", (r, -r))
+        (cusp,) = [point for point in curve.special if point["type"] == "cusp"]
+        assert cusp["b"] / r == pytest.approx(0, abs=1e-9)
+        onwards = traced.start_from(0, parameter="b", range=(r, -2 * r))
+        assert onwards["b"][-1] / r == pytest.approx(-2, rel=1e-9)
+        assert len(onwards) > 10
+
+
 def test_more_branches_than_are_followed_are_told():
     with pytest.warns(RuntimeWarning, match="max_branches = 1 were followed"):
         found = arcslip.trace_all(

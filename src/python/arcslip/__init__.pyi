@@ -176,7 +176,7 @@ class Problem:
     sparse: bool
     switches: int
     unknown_scale: ArrayLike
-    parameter_scale: ArrayLike
+    parameter_scale: ArrayLike | None
     jacobian: Any
     parameter_jacobian: Any
     observables: Any

@@ -25,7 +25,8 @@ class Model(Problem):
     start : dict, optional
         A guess of unknowns, as numbers or formulas of the parameters; 0 of those that are left out.
     scale : dict, optional
-        Typical magnitudes of unknowns and parameters that are far below 1, by their names.
+        Typical magnitudes of unknowns and parameters that are far below 1, by their names. A parameter that is continued
+        below 0.01 has its largest value if it is not given.
     definitions : dict, optional
         Formulas by names that equations and observables may use, in any order.
     observables : dict, optional

@@ -48,6 +48,7 @@ class Problem:
         How many, if there are borders.
     unknown_scale, parameter_scale : float or array
         Typical magnitudes, > 0: steps and errors are measured in the value itself, or in these where they are larger.
+        1 if not given; of a parameter that is continued below 0.01 its largest value.
     """
 
     parameters = ()
@@ -56,7 +57,7 @@ class Problem:
     sparse = False
     switches = 1
     unknown_scale = 1.0
-    parameter_scale = 1.0
+    parameter_scale = None
     jacobian = None
     parameter_jacobian = None
     observables = None
@@ -88,12 +89,17 @@ class Problem:
 class Prepared:
     """A problem at its start: what the engine traces, and the start as it takes it."""
 
-    def __init__(self, problem, u0, p0, parameter, regime):
+    def __init__(self, problem, u0, p0, parameter, regime, range=None):
         self.problem = problem
         self.u0 = _unknowns(u0)
         self.form, self.names, self.p0, self.parameter = _parameters(problem, p0, parameter)
         self.active = [self.parameter, *problem._active]
         self.regime = regime
+        self.formulas = getattr(problem, "_formulas", None)
+        self.range = range
+        if self.formulas is not None and range is not None:
+            first, last = range
+            self.formulas = self.formulas.within(self.parameter, first, last)
         self._check_start()
         self._prepare_observables()
         self.derivatives = {
@@ -134,13 +140,22 @@ class Prepared:
             "equilibrium": bool(problem.equilibrium),
             "switches": int(problem.switches) if problem.borders is not None else 0,
             "unknown_scale": _scale(problem.unknown_scale, len(self.u0), "unknown_scale"),
-            "parameter_scale": _scale(problem.parameter_scale, len(self.names), "parameter_scale"),
+            "parameter_scale": self._parameter_scale(),
+            "scales_by_ranges": problem.parameter_scale is None,
             "jacobian": self.derivatives["jacobian"],
             "parameter_jacobian": self.derivatives["parameter_jacobian"],
             "of_observables": self._source_of_both(self._observe) if self.observed else "central differences",
             "of_borders": "central differences" if problem.borders is None else self._source_of_both(self._borders),
-            "formulas": getattr(problem, "_formulas", None),
+            "formulas": self.formulas,
         }
+
+    def _parameter_scale(self):
+        given = self.problem.parameter_scale
+        scale = _scale(1.0 if given is None else given, len(self.names), "parameter_scale")
+        if given is None and self.range is not None:
+            first, last = self.range
+            scale[self.names.index(self.parameter)] = _core.magnitude_within(first, last)
+        return scale
 
     def _in_form(self, p):
         if self.form == "number":

@@ -101,7 +101,7 @@ def trace(
     }
     problem = _of_points(problem, functions)
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
-    prepared = Prepared(problem, u0, p0, parameter, regime)
+    prepared = Prepared(problem, u0, p0, parameter, regime, range)
     options["parameter"] = prepared.parameter
     how, options["range"] = _way(prepared, range)
     if checkpoint is not None:
@@ -142,7 +142,7 @@ def trace_all(
         raise ValueError(f'follow: expected "connected", "deflation" or "all", got {follow!r}')
     problem = _of_points(problem, functions or {})
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
-    prepared = Prepared(problem, u0, p0, parameter, regime)
+    prepared = Prepared(problem, u0, p0, parameter, regime, range)
     options["parameter"] = prepared.parameter
     options["range"] = range
     if follow == "connected":
@@ -221,13 +221,13 @@ def trace_cycles(
             raise ValueError('discretisation: only "collocation" for what is made of pieces, got "balance"')
         return _orbits(problem, p0, parameter, range, settle, follow, held, options, progress)
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
-    prepared = Prepared(problem, u0, p0, parameter or _first_but_time(p0, is_driven), 0)
+    prepared = Prepared(problem, u0, p0, parameter or _first_but_time(p0, is_driven), 0, range)
     options["parameter"] = prepared.parameter
     how, options["range"] = _way(prepared, range)
     forced = getattr(problem, "kind", "") == "forced"
     if not (forced or is_driven or problem.equilibrium):
         raise ValueError("problem: expected one of a flow, with equilibrium=True or of kind \"flow\"")
-    formulas = problem._formulas if forced else None
+    formulas = prepared.formulas if forced else None
     cores, doubt = _core.trace_cycles(
         prepared.core, formulas, prepared.u0, prepared.p0, settle, None if period is None else str(period), bool(follow),
         how, options, held, progress
@@ -271,11 +271,11 @@ def trace_boundary(
 def _orbits(problem, p0, parameter, range, settle, follow, held, options, progress):
     """Branches of a Model that has orbits alone, without equilibria."""
     u0, p0 = problem._begin(None, p0, parameter, range[0])
-    prepared = Prepared(problem, u0, p0, parameter, 0)
+    prepared = Prepared(problem, u0, p0, parameter, 0, range)
     options["parameter"] = prepared.parameter
     how, options["range"] = _way(prepared, range)
     cores = _core.trace_orbit(
-        prepared.core, problem._formulas, prepared.p0, settle, bool(follow), how, options, held, progress
+        prepared.core, prepared.formulas, prepared.p0, settle, bool(follow), how, options, held, progress
     )
     return [_told(Branch(core, i, prepared.derivatives)) for i, core in enumerate(cores)]
 

@@ -65,6 +65,16 @@ void set_pieces(const Pieces& given, FormulaSystem& system) {
   system.cycle = given.second;
 }
 
+Formulas compiled(const FormulaSystem& system) {
+  std::shared_ptr<const problems::FormulaField> forced;
+  if (system.kind == FormulaKind::forced) forced = std::make_shared<const problems::FormulaField>(system);
+  std::optional<problems::LibraryModel> orbits;
+  if (system.kind == FormulaKind::boundary || system.kind == FormulaKind::piecewise)
+    orbits = problems::model_of(system);
+  return {std::make_shared<const problems::FormulaProblem>(system), forced, problems::start_of(system),
+          orbits};
+}
+
 Formulas made(const std::string& kind, int iterate,
               const std::vector<std::pair<std::string, double>>& numbers,
               const std::vector<std::pair<std::string, double>>& scale, const Texts& definitions,
@@ -80,14 +90,16 @@ Formulas made(const std::string& kind, int iterate,
   system.equations = formulas_of("equations", equations);
   system.observables = formulas_of("observables", observables);
   system.start = formulas_of("start", start);
-  std::shared_ptr<const problems::FormulaField> forced;
-  if (system.kind == FormulaKind::forced) forced = std::make_shared<const problems::FormulaField>(system);
   if (conditions) set_conditions(*conditions, system);
   if (pieces) set_pieces(*pieces, system);
-  std::optional<problems::LibraryModel> orbits;
-  if (conditions || pieces) orbits = problems::model_of(system);
-  return {std::make_shared<const problems::FormulaProblem>(system), forced, problems::start_of(system),
-          orbits};
+  return compiled(system);
+}
+
+/// With a parameter in the scale of the range that it is continued over.
+Formulas within(const Formulas& formulas, const std::string& parameter, double from, double to) {
+  FormulaSystem system = formulas.problem->system();
+  problems::scale_within(system, parameter, from, to);
+  return compiled(system);
 }
 
 /// What it is called with, as the problem takes it.
@@ -115,8 +127,10 @@ py::array evaluated(const Formulas& formulas, const Place& at, Target* continuat
 
 void bind_formulas(py::module_& module) {
   using continuation::Evaluation;
+  module.def("magnitude_within", problems::magnitude_within);
   py::class_<Formulas>(module, "Formulas")
       .def(py::init(&made))
+      .def("within", within)
       .def("residual",
            [](const Formulas& self, const py::handle& u, const py::handle& p) {
              const Place at(self, u, p);

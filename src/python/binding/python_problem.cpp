@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/problems/formulas/formula_problem.hpp"
 #include "python/binding/arrays.hpp"
 #include "python/binding/differences.hpp"
 
@@ -37,6 +38,12 @@ bool PythonProblem::guarded(const Work& work) const {
 void PythonProblem::activate(const std::string& parameter) {
   continuation::index_of(traits_.parameters, parameter);
   traits_.active.push_back(parameter);
+}
+
+void PythonProblem::scale_within(const std::string& parameter, double from, double to) {
+  if (traits_.scales_by_ranges)
+    traits_.parameter_scale(continuation::index_of(traits_.parameters, parameter)) =
+        problems::magnitude_within(from, to);
 }
 
 namespace {

@@ -44,8 +44,9 @@ struct PythonTraits {
   bool sparse = false;                   ///< whether the Jacobian is, which is given then
   bool is_equilibrium = false;           ///< whether F is the right-hand side of u' = F
   Index switches = 0;
-  Vector unknown_scale;    ///< n, typical magnitudes, > 0
-  Vector parameter_scale;  ///< of the parameters
+  Vector unknown_scale;           ///< n, typical magnitudes, > 0
+  Vector parameter_scale;         ///< of the parameters
+  bool scales_by_ranges = false;  ///< whether these are of the ranges that parameters are continued over
   Step by_unknowns = Step::none;
   Step by_parameters = Step::none;
   Step of_observables = Step::central;
@@ -79,6 +80,8 @@ class PythonProblem : public continuation::Problem {
   const PythonTraits& traits() const { return traits_; }
   /// From now on derivatives by this parameter are taken as well.
   void activate(const std::string& parameter);
+  /// And it is measured against how far it is continued, where no scale is given.
+  void scale_within(const std::string& parameter, double from, double to);
 
   /// Of a user's function of (u, p), or (u, p, regime): its value. For events.
   double call_for_number(const py::object& function, const std::string& what, const Vector& u,

@@ -137,24 +137,39 @@ Handles trace_starts(const BranchHandle& handle, const std::vector<continuation:
   return handles;
 }
 
+/// What a branch is one of, made ready for another parameter that is continued.
+std::shared_ptr<const continuation::Problem> base_over(const BranchHandle& handle,
+                                                       const TraceOptions& options) {
+  if (const auto& problem = handle.problem()) {
+    problem->activate(options.parameter);
+    problem->scale_within(options.parameter, options.from, options.to);
+  }
+  const std::shared_ptr<const continuation::Problem>& base = handle.traced().base.problem;
+  const auto* formulas = dynamic_cast<const problems::FormulaProblem*>(base.get());
+  if (formulas == nullptr) return base;
+  problems::FormulaSystem system = formulas->system();
+  scale_within(system, options.parameter, options.from, options.to);
+  return std::make_shared<const problems::FormulaProblem>(system);
+}
+
 Handles start_from(const BranchHandle& handle, std::size_t point, bool forward, const py::dict& given,
                    const py::object& progress) {
   require_branch(handle, "start_from");
   TraceOptions options = options_of(handle, given);
   Guess guess = continuation::restart(handle.point(point), forward);
-  const bool same = options.parameter == handle.traced().request->options.parameter;
-  if (!same) {  // the tangent is that of another parameter
-    guess.direction.resize(0);
-    options.from = guess.parameters(
-        continuation::index_of(handle.traced().base.problem->parameter_names(), options.parameter));
-    if (handle.problem()) handle.problem()->activate(options.parameter);
+  std::shared_ptr<const continuation::Problem> base = handle.traced().base.problem;
+  if (options.parameter != handle.traced().request->options.parameter) {
+    guess.direction.resize(0);  // the tangent is that of another parameter
+    const Index parameter = continuation::index_of(base->parameter_names(), options.parameter);
+    base = base_over(handle, options);
+    options.from = guess.parameters(parameter);
   }
   if (const continuation::OrbitProblem* orbits = orbits_of(handle.traced())) {
     const auto own = about(*orbits, guess.unknowns, guess.parameters, guess.regime);
     guess.regime = {};
     return trace_starts(handle, {{own, guess}}, options, progress);
   }
-  return trace_guesses(handle, handle.traced().base.problem, {guess}, options, progress);
+  return trace_guesses(handle, base, {guess}, options, progress);
 }
 
 /// Of a branch of orbits, or of equilibria at a Hopf point.
@@ -235,7 +250,6 @@ std::shared_ptr<BranchHandle> curve_through(const BranchHandle& handle, std::siz
                                             const std::optional<std::pair<double, double>>& window,
                                             const py::dict& given, const py::object& progress) {
   require_branch(handle, "curve");
-  const continuation::Problem& base = *handle.traced().base.problem;
   const std::string active = handle.traced().request->options.parameter;
   TraceOptions options = options_of(handle, {});
   options.extrema_of.clear();
@@ -245,14 +259,14 @@ std::shared_ptr<BranchHandle> curve_through(const BranchHandle& handle, std::siz
   set_options(given, handle.problem(), options);
   if (options.parameter == active)
     throw py::value_error("parameter: it is that of the branch; expected another");
-  continuation::index_of(base.parameter_names(), options.parameter);
-  if (handle.problem()) handle.problem()->activate(options.parameter);
+  continuation::index_of(handle.traced().base.problem->parameter_names(), options.parameter);
+  const std::shared_ptr<const continuation::Problem> base = base_over(handle, options);
   if (options.extrema_of.empty()) options.extrema_of = {observable.empty() ? active : observable};
   const Stopwatch watch;
   continuation::Curve curve = in_engine(options, progress, [&](const auto& observer) {
-    return continuation::trace_curve_through(handle.traced().base.problem, active, handle.point(point),
-                                             observable, options, window_of(window),
-                                             handle.traced().request->cycles.options, observer);
+    return continuation::trace_curve_through(base, active, handle.point(point), observable, options,
+                                             window_of(window), handle.traced().request->cycles.options,
+                                             observer);
   });
   return std::make_shared<BranchHandle>(beside(handle, options, std::move(curve.branch), watch.seconds(),
                                                std::move(curve.base), std::move(curve.problem)),
@@ -340,6 +354,7 @@ std::shared_ptr<PythonProblem> make_problem(const py::dict& functions, const py:
   made.switches = traits["switches"].cast<Index>();
   made.unknown_scale = take_all(traits["unknown_scale"], "unknown_scale");
   made.parameter_scale = take_all(traits["parameter_scale"], "parameter_scale");
+  made.scales_by_ranges = traits["scales_by_ranges"].cast<bool>();
   made.by_unknowns = step_named(traits["jacobian"].cast<std::string>());
   made.by_parameters = step_named(traits["parameter_jacobian"].cast<std::string>());
   made.of_observables = step_named(traits["of_observables"].cast<std::string>());

@@ -72,6 +72,13 @@ struct FormulaSystem {
   std::vector<std::string> cycle = {};  ///< their names as they follow each other; empty: in their order
 };
 
+/// What a parameter that is continued from one value to the other is measured against, beside its own size:
+/// as far as it goes where that is within a tenth of the longest step, else 1.
+double magnitude_within(double from, double to);
+
+/// Gives a parameter that is continued so its scale, if it has none.
+void scale_within(FormulaSystem& system, const std::string& parameter, double from, double to);
+
 /// Refuses names that mean two things. Throws FormulaError.
 void check_names(const FormulaSystem& system);
 
@@ -125,6 +132,8 @@ class FormulaProblem : public continuation::Problem {
                Vector& values) const override;
   double observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                  continuation::Gradient& gradient) const override;
+
+  const FormulaSystem& system() const { return *system_; }
 
   /// Of a map: the points that are fixed after twice as many steps. Throws std::invalid_argument where these
   /// are more than `most_iterates`.
