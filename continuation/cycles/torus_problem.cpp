@@ -15,13 +15,15 @@ namespace arcslip::continuation {
 TorusProblem::TorusProblem(const Problem& base, Index active)
     : PairProblem(base, active), orbits_(dynamic_cast<const PeriodicOrbit*>(&base)) {}
 
-void TorusProblem::fill(BorderedSolver& solver, double a, double b, const Vector& scales) const {
-  if (orbits_ == nullptr) {  // [A, b; -1, A - a], A = df/du
+void TorusProblem::fill(BorderedSolver& solver, const Pair& pair, const Vector& scales) const {
+  if (orbits_ == nullptr) {  // J_0 = df/du, J_1 = -1
     Matrix doubled = Matrix::Zero(2 * count_, 2 * count_);
-    doubled.topLeftCorner(count_, count_) = at_.jacobian() + Matrix::Identity(count_, count_);
-    doubled.bottomRightCorner(count_, count_) = at_.jacobian() + (1 - a) * Matrix::Identity(count_, count_);
-    doubled.topRightCorner(count_, count_).diagonal().setConstant(b);
-    doubled.bottomLeftCorner(count_, count_).diagonal().setConstant(-1);
+    for (const Index i : {0, 1}) {
+      doubled.block(i * count_, i * count_, count_, count_) =
+          at_.jacobian() + Matrix::Identity(count_, count_);
+      for (const Index j : {0, 1})
+        doubled.block(i * count_, j * count_, count_, count_).diagonal().array() -= pair(j, i);
+    }
     solver.set_jacobian(doubled, scales);
     return;
   }
@@ -30,17 +32,14 @@ void TorusProblem::fill(BorderedSolver& solver, double a, double b, const Vector
   entries.reserve(static_cast<std::size_t>(2 * whole.nonZeros()));
   for (Index column = 0; column < count_; ++column) {
     for (SparseMatrix::InnerIterator entry(whole, column); entry; ++entry) {
-      const auto add = [&](Index row_part, Index column_part, double factor) {
-        entries.emplace_back(static_cast<int>(row_part * count_ + entry.row()),
-                             static_cast<int>(column_part * count_ + column), factor * entry.value());
-      };
-      if (orbits_->joins_rounds(entry.row(), column)) {
-        add(0, 1, -b);
-        add(1, 0, 1);
-        add(1, 1, a);
-      } else {
-        add(0, 0, 1);
-        add(1, 1, 1);
+      const bool joins = orbits_->joins_rounds(entry.row(), column);
+      for (const Index i : {0, 1}) {
+        for (const Index j : {0, 1}) {
+          if (!joins && i != j) continue;
+          entries.emplace_back(static_cast<int>(i * count_ + entry.row()),
+                               static_cast<int>(j * count_ + column),
+                               (joins ? pair(j, i) : 1) * entry.value());
+        }
       }
     }
   }
@@ -71,7 +70,7 @@ void TorusProblem::test(const Vector& u, const Vector& p, const Regime& regime, 
   const BasePoint point = split(u, p, regime);
   const double kappa = point.extras(0);
   values.setConstant(std::ssize(test_types()), std::nan(""));
-  values.head(4) << 1 - kappa, kappa + 1, kappa + 0.5, kappa;
+  values.head(4) << meeting_test(point, 1 - kappa), meeting_test(point, 1 + kappa), kappa + 0.5, kappa;
   constexpr double surely = 1e-6;  // so near to where the pair meets its vectors are rounding
   if (!(std::abs(kappa) < 1 - surely)) return;
   const auto form = multiplier_form(base(), PointType::neimark_sacker,

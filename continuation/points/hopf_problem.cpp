@@ -10,32 +10,33 @@ namespace arcslip::continuation {
 
 HopfProblem::HopfProblem(const Problem& base, Index active) : PairProblem(base, active) {}
 
-void HopfProblem::fill(BorderedSolver& solver, double /*a*/, double b, const Vector& scales) const {
+void HopfProblem::fill(BorderedSolver& solver, const Pair& pair, const Vector& scales) const {
   if (at_.sparse()) {
-    fill_sparse(solver, b, scales);
+    fill_sparse(solver, pair, scales);
     return;
   }
   doubled_.setZero(2 * count_, 2 * count_);
-  doubled_.topLeftCorner(count_, count_) = at_.jacobian();
-  doubled_.bottomRightCorner(count_, count_) = at_.jacobian();
-  doubled_.topRightCorner(count_, count_).diagonal().setConstant(b);
-  doubled_.bottomLeftCorner(count_, count_).diagonal().setConstant(-1);
+  for (const Index i : {0, 1}) {
+    doubled_.block(i * count_, i * count_, count_, count_) = at_.jacobian();
+    for (const Index j : {0, 1})
+      doubled_.block(i * count_, j * count_, count_, count_).diagonal().array() -= pair(j, i);
+  }
   solver.set_jacobian(doubled_, scales);
 }
 
-void HopfProblem::fill_sparse(BorderedSolver& solver, double b, const Vector& scales) const {
+void HopfProblem::fill_sparse(BorderedSolver& solver, const Pair& pair, const Vector& scales) const {
   const SparseMatrix& jacobian = at_.sparse_jacobian();
   const auto n = static_cast<int>(count_);
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(2 * (jacobian.nonZeros() + count_)));
+  entries.reserve(static_cast<std::size_t>(2 * jacobian.nonZeros() + 4 * count_));
   for (int column = 0; column < n; ++column) {
     for (SparseMatrix::InnerIterator entry(jacobian, column); entry; ++entry) {
       const auto row = static_cast<int>(entry.row());
       entries.emplace_back(row, column, entry.value());
       entries.emplace_back(n + row, n + column, entry.value());
     }
-    entries.emplace_back(column, n + column, b);
-    entries.emplace_back(n + column, column, -1);
+    for (const int i : {0, 1})
+      for (const int j : {0, 1}) entries.emplace_back(i * n + column, j * n + column, -pair(j, i));
   }
   SparseMatrix doubled(2 * count_, 2 * count_);
   doubled.setFromTriplets(entries.begin(), entries.end());
@@ -59,7 +60,7 @@ void HopfProblem::test(const Vector& u, const Vector& p, const Regime& regime, V
   const BasePoint point = split(u, p, regime);
   const double kappa = point.extras(0);
   values.resize(2);
-  values << kappa, std::nan("");
+  values << meeting_test(point, kappa), std::nan("");
   ComplexVector all;
   if (!base().eigenvalues(point.unknowns, point.parameters, regime, all)) return;
   constexpr double rounding = 1e-14;  // of kappa

@@ -1,95 +1,203 @@
 #include "arcslip/continuation/points/pair_problem.hpp"
 
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "arcslip/continuation/linear/borders.hpp"
 
 namespace arcslip::continuation {
+namespace {
+
+Vector place(const BasePoint& point) {
+  Vector all(point.unknowns.size() + point.parameters.size());
+  all << point.unknowns, point.parameters;
+  return all;
+}
+
+}  // namespace
 
 PairProblem::PairProblem(const Problem& base, Index active)
     : ExtendedProblem(base, active, 2),
       count_(base.size()),
-      solver_(make_bordered_solver(2 * count_, 2, base.sparse())),
-      column_(spread(2 * count_, 1)),
-      row_(spread(2 * count_, 2)),
+      solver_(make_bordered_solver(2 * count_, 4, base.sparse())),
+      frame_(Matrix::Zero(count_, 2)),
+      start_(Pair::Zero()),
       second_(base),
-      right_(2 * count_ + 2),
-      left_{right_, right_} {}
+      pair_(Pair::Zero()) {}
 
-bool PairProblem::solve_borders(double kappa) const {
+Vector PairProblem::scales() const {
+  Vector both(2 * count_);
+  both << scale_, scale_;
+  return both;
+}
+
+/// By L = [0 1; -b a], with which two borders suffice unless there are two null vectors.
+bool PairProblem::begin(double kappa) {
   const double a = sum(kappa).value;
   const double b = product(kappa).value;
-  Vector scales(2 * count_);
-  scales << scale_, scale_;
-  fill(*solver_, a, b, scales);
-  const auto first = column_.head(count_);
-  const auto second = column_.tail(count_);
-  solver_->columns() << first, -b * second, second, first + a * second;
-  const auto of_first = row_.head(count_).transpose();
-  const auto of_second = row_.tail(count_).transpose();
-  solver_->rows() << of_first, -b * of_second, of_second, of_first + a * of_second;
-  solver_->corner().setZero();
-  if (solver_->factor() == 0) return false;
-  right_.setUnit(2 * count_);
-  solver_->solve(right_);
-  for (Index j = 0; j < 2; ++j) {
-    left_[j].setUnit(2 * count_ + j);
-    solver_->solve_transposed(left_[j]);
+  const Index n = count_;
+  const double size = column_size(at_, scale_);
+  const auto solver = make_bordered_solver(2 * n, 2, base().sparse());
+  Pair companion;
+  companion << 0, 1, -b, a;
+  fill(*solver, companion, scales());
+  Vector column = size * spread(2 * n, 1);
+  Vector row = spread(2 * n, 2);
+  Vector right(2 * n + 2);
+  Vector left(2 * n + 2);
+  for (int i = 0; i < 3; ++i) {  // inverse iteration, with the conjugates of both null vectors
+    const auto first = column.head(n);
+    const auto second = column.tail(n);
+    solver->columns() << first, -b * second, second, first + a * second;
+    const auto of_first = row.head(n).transpose();
+    const auto of_second = row.tail(n).transpose();
+    solver->rows() << of_first, -b * of_second, of_second, of_first + a * of_second;
+    if (solver->factor() == 0) return false;
+    right.setUnit(2 * n);
+    solver->solve(right);
+    left.setUnit(2 * n + 1);
+    solver->solve_transposed(left);
+    if (!right.allFinite() || !left.allFinite()) return false;
+    column << left.segment(n, n), -left.head(n);
+    column *= size / column.norm();
+    row << right.head(n) + a * right.segment(n, n), -right.segment(n, n);
+    row.normalize();
   }
-  return right_.allFinite() && left_[0].allFinite() && left_[1].allFinite();
+  space_ = right.head(2 * n).reshaped(n, 2);
+  pair_ = companion;
+  return true;
+}
+
+/// L(V') + J_1 V L' = 0 and C^T V' = 1 with the change L' of L, until that is short.
+bool PairProblem::solve_space() const {
+  constexpr int most = 12;
+  constexpr double short_enough = 1e-8;  // the next one is its square
+  const Vector both = scales();
+  const Index n = count_;
+  space_ = frame_;
+  pair_ = start_;
+  solver_->corner().setZero();
+  Vector solution(2 * n + 4);
+  double last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < most; ++k) {
+    fill(*solver_, pair_, both);
+    solver_->columns().setZero();
+    solver_->rows().setZero();
+    for (const Index i : {0, 1}) {
+      const Vector moved = turned(space_.col(i).cwiseProduct(scale_));
+      for (const Index j : {0, 1}) {
+        solver_->columns().col(2 * j + i).segment(j * n, n) = moved;
+        solver_->rows().row(2 * j + i).segment(j * n, n) = frame_.col(i).transpose();
+      }
+    }
+    if (solver_->factor() == 0) return false;
+    solution.setZero();
+    solution(2 * n) = solution(2 * n + 3) = 1;
+    solver_->solve(solution);
+    if (!solution.allFinite()) return false;
+    const Pair change = solution.tail(4).reshaped(2, 2);
+    space_ = solution.head(2 * n).reshaped(n, 2);
+    pair_ += change;
+    const double length = change.norm();
+    if (length <= short_enough * pair_.norm()) return true;
+    if (length >= last && length <= short_enough * size_) return true;  // rounding of a pair next to 0
+    last = length;
+  }
+  return false;
+}
+
+bool PairProblem::find_space(const BasePoint& point) const {
+  found_at_.resize(0);
+  if (!solve_space()) return false;
+  found_at_ = place(point);
+  return true;
+}
+
+double PairProblem::meeting_test(const BasePoint& point, double apart) const {
+  const Vector here = place(point);
+  const bool is_found = found_at_.size() == here.size() && found_at_ == here;
+  const bool is_known =
+      is_found || (at_.evaluate(point.unknowns, point.parameters, point.regime) && find_space(point));
+  if (!is_known) return std::nan("");
+  const Pair deviation = pair_ - 0.5 * pair_.trace() * Pair::Identity();
+  return apart / (deviation.squaredNorm() + std::abs(apart));
+}
+
+/// Whether the pair that was found is the one that belongs to kappa.
+bool PairProblem::has_pair_of(double kappa) const {
+  constexpr double near = 1e-4;
+  const double size = pair_.norm();
+  return std::abs(pair_.trace() - sum(kappa).value) <= near * size &&
+         std::abs(pair_.determinant() - product(kappa).value) <= near * size * size;
 }
 
 bool PairProblem::adapt(const BasePoint& point) {
   if (!ExtendedProblem::adapt(point)) return false;
-  const double size = column_size(at_, scale_);
-  const double a = sum(point.extras(0)).value;
-  for (int i = 0; i < 3; ++i) {  // inverse iteration, with the conjugates of both null vectors
-    if (!solve_borders(point.extras(0))) return false;
-    column_ << left_[1].segment(count_, count_), -left_[1].head(count_);
-    column_ *= size / column_.norm();
-    row_ << right_.head(count_) + a * right_.segment(count_, count_), -right_.segment(count_, count_);
-    row_.normalize();
-  }
-  column_ *= steepness(point);
+  Vector sums(count_);
+  at_.multiply_absolute(scale_, sums);
+  size_ = sums.cwiseQuotient(scale_).maxCoeff();
+  if (!(size_ > 0)) size_ = 1;
+  const double kappa = point.extras(0);
+  const bool goes_on = !frame_.isZero(0) && solve_space() && has_pair_of(kappa);
+  if (!goes_on && !begin(kappa)) return false;
+  const Eigen::HouseholderQR<Matrix> factors(space_);
+  const Pair triangle = factors.matrixQR().topRows(2).triangularView<Eigen::Upper>();
+  frame_ = factors.householderQ() * Matrix::Identity(count_, 2);
+  start_ = triangle * pair_ * triangle.inverse();
+  if (!frame_.allFinite() || !start_.allFinite()) return false;
+  slope_ = 1;
+  slope_ = steepness(point);
   return true;
 }
 
 void PairProblem::each_border(const std::function<void(double*, Index)>& use) {
   ExtendedProblem::each_border(use);
-  use(column_.data(), column_.size());
-  use(row_.data(), row_.size());
+  use(frame_.data(), frame_.size());
+  use(start_.data(), start_.size());
+  use(&size_, 1);
+  use(&slope_, 1);
   use(&second_.memory(), 1);
 }
 
 double PairProblem::strain() const {
-  return std::max(right_.head(2 * count_).norm(), left_[0].head(2 * count_).norm() * column_.norm());
+  const double turned_by = (pair_ - start_).norm() / start_.norm();
+  return space_.norm() / frame_.norm() * (1 + turned_by);
 }
 
 bool PairProblem::conditions(const BasePoint& point, Vector& values, Matrix* gradients) const {
-  const double kappa = point.extras(0);
-  if (!solve_borders(kappa)) return false;
-  values = right_.tail(2);
+  if (!find_space(point)) return false;
+  const ByKappa a = sum(point.extras(0));
+  const ByKappa b = product(point.extras(0));
+  constexpr double least = 1e-6;  // of the matrices: a pair that is none of rounding
+  const double rate = std::max(start_.norm(), least * size_);
+  const Eigen::Vector2d units{1 / (size_ * slope_), 1 / (size_ * rate * slope_)};
+  values << pair_.trace() - a.value, pair_.determinant() - b.value;
+  values.array() *= units.array();
   if (gradients == nullptr) return true;
+  const Index n = count_;
+  Matrix left(2 * n + 4, 2);  // what moves both by a change of J
+  left.setZero();
+  left.bottomRows(4) << 1, pair_(1, 1), 0, -pair_(0, 1), 0, -pair_(1, 0), 1, pair_(0, 0);
+  for (const Index k : {0, 1}) {
+    Vector side = left.col(k);
+    solver_->solve_transposed(side);
+    if (!side.allFinite()) return false;
+    left.col(k) = units(k) * side;
+  }
   const Vector none = Vector::Zero(point.parameters.size());
   gradients->setZero();
-  Matrix weights(count_, 2);
   Matrix columns;
   for (const Index part : {0, 1}) {
-    for (Index j = 0; j < 2; ++j) weights.col(j) = left_[j].segment(part * count_, count_);
-    const Vector v = right_.segment(part * count_, count_).cwiseProduct(scale_);
+    const Matrix weights = left.middleRows(part * n, n);
+    const Vector v = space_.col(part).cwiseProduct(scale_);
     if (!second_.contract(point.unknowns, point.parameters, point.regime, weights, v, none, columns))
       return false;
     gradients->leftCols(columns.rows()) -= columns.transpose();
   }
-  // what kappa moves: z^2 v_1, of the matrix and of both borders
-  const auto second = right_.segment(count_, count_);
-  const Vector moved = turned(second.cwiseProduct(scale_)) + column_.tail(count_) * right_(2 * count_ + 1);
-  const double of_row = row_.tail(count_).dot(second);
-  const double a = sum(kappa).slope;
-  const double b = product(kappa).slope;
-  Vector by_kappa(2 * count_ + 2);
-  by_kappa << -b * moved, a * moved, -b * of_row, a * of_row;
-  for (Index j = 0; j < 2; ++j) (*gradients)(j, columns.rows()) = -left_[j].dot(by_kappa);
+  gradients->col(gradients->cols() - 1) << -units(0) * a.slope, -units(1) * b.slope;
   return true;
 }
 

@@ -1,5 +1,6 @@
 // Curves in two parameters of Neimark-Sacker points, of maps and of cycles, where they meet those of folds,
-// of period doublings and of another pair, all known in closed form.
+// of period doublings and of another pair, all known in closed form; and where the pair of such curves, or
+// of those of Hopf points, meets with two eigenvectors: they go on, as they do not where it meets with one.
 
 #include <fmt/format.h>
 
@@ -79,6 +80,13 @@ bool is_of(const TracedBranch& curve) {
 void check_meetings(const TracedBranch& curve, PointType type, const std::vector<double>& expected) {
   INFO(to_string(type));
   check_values(values_at(curve, type, "q"), expected, 1e-9);
+}
+
+void check_passes(const TracedBranch& curve) {
+  CHECK(curve.branch.complete());
+  for (const PointType type : {PointType::resonance_1_1, PointType::resonance_1_2, PointType::bogdanov_takens,
+                               PointType::fold, PointType::corner_fold, PointType::peak, PointType::trough})
+    CHECK(count(curve, type) == 0);
 }
 
 }  // namespace
@@ -188,5 +196,117 @@ to = 0
     // One pair comes to the axis where another has just left it.
     CHECK(told("0.3*(q - 0.5)", "-0.3*(q - 0.4)", "-1*(q - 0.2)", "2*(q - 0.1)", step) ==
           Names{"branch_point 0.5", "neimark_sacker 0.1", "neimark_sacker 0.2", "period_doubling 0.4"});
+  }
+}
+
+TEST_CASE("A curve of tori of a map goes on where the pair meets with two eigenvectors", "[cycles]") {
+  const auto turning = [](const std::string& to) {  // z -> (1 + mu - 0.1 w) e^(jw) z - ...
+    const std::string text = R"case(
+[model]
+kind = "map"
+[model.parameters]
+mu = -0.1
+w = 0.5
+[model.equations]
+p = "(1 + mu - 0.1*w)*(cos(w)*p - sin(w)*q) - p*(p^2 + q^2)"
+q = "(1 + mu - 0.1*w)*(cos(w)*q + sin(w)*p) - q*(p^2 + q^2)"
+[branch]
+curve = "neimark_sacker"
+parameters = ["mu", "w"]
+window = [-0.5, 1]
+from = 0.1
+)case";
+    const auto all = traced_of(text + "to = " + to + "\n");
+    REQUIRE(all.size() == 1);
+    check_passes(all[0]);
+    for (const BranchPoint& point : all[0].branch.points)
+      CHECK_THAT(value(all[0], point, "mu"), WithinAbs(0.1 * value(all[0], point, "w"), 1e-9));
+    return all_values_at(all, PointType::resonance_1_3, "w");
+  };
+  check_values(turning("7"), {two_pi / 3, 2 * two_pi / 3}, 1e-8);
+  check_values(turning("3.14159265358979312"), {two_pi / 3}, 1e-8);
+}
+
+TEST_CASE("A curve of tori of a forced oscillation goes on where the pair meets with two eigenvectors",
+          "[cycles]") {
+  const auto all = traced_of(R"case(
+[model]
+kind = "forced"
+period = "2*pi"
+[model.parameters]
+mu = 0.1
+w = 0.3
+[model.equations]
+x = "-x + cos(t)"
+p = "(mu - 0.1*(w - 1))*p - w*q - p*(p^2 + q^2)"
+q = "(mu - 0.1*(w - 1))*q + w*p - q*(p^2 + q^2)"
+[cycles]
+settle = 100
+[branch]
+curve = "neimark_sacker"
+parameters = ["mu", "w"]
+window = [-0.5, 0.5]
+from = 0.1
+to = 1.8
+)case");
+  REQUIRE(all.size() == 1);
+  check_passes(all[0]);
+  check_values(all_values_at(all, PointType::resonance_1_3, "w"), {1.0 / 3, 2.0 / 3, 4.0 / 3, 5.0 / 3}, 1e-8);
+  check_values(all_values_at(all, PointType::resonance_1_3, "mu"), {-2.0 / 30, -1.0 / 30, 1.0 / 30, 2.0 / 30},
+               1e-8);
+}
+
+TEST_CASE("A curve of tori of odd oscillations goes on where half a period turns by a quarter", "[cycles]") {
+  const auto all = traced_of(R"case(
+[model]
+kind = "forced"
+period = "2*pi/W"
+[model.parameters]
+W = 0.75
+F = 1
+mu = 0.4
+[model.equations]
+x = "v"
+v = "mu*(1 - x^2)*v - x + F*cos(W*t)"
+[cycles]
+settle = 300
+[branch]
+curve = "neimark_sacker"
+parameters = ["W", "F"]
+window = [0.4, 1]
+from = 0.4
+to = 1.05
+)case");
+  REQUIRE(all.size() == 1);
+  check_passes(all[0]);
+  // Where half a period's map with its sign turned, of determinant 1, has the traces -1 and 1, by integration
+  // in time; at F = 0.8198421, between, it is 0.
+  check_values(all_values_at(all, PointType::resonance_1_3, "W"), {0.59070927, 0.73304672}, 1e-7);
+  check_values(all_values_at(all, PointType::resonance_1_3, "F"), {0.67825161, 0.92533674}, 1e-7);
+}
+
+TEST_CASE("A curve of Hopf points goes on where the pair vanishes with two eigenvectors", "[hopf]") {
+  const auto all = traced_of(R"case(
+[model.parameters]
+mu = -0.3
+w = 0.5
+[model.equations]
+x = "(mu - 0.1*w)*x - y - x*(x^2 + y^2)"
+y = "(mu - 0.1*w)*y + x - y*(x^2 + y^2)"
+p = "(mu + 0.1*w)*p - (1 + w)*q - p*(p^2 + q^2)"
+q = "(mu + 0.1*w)*q + (1 + w)*p - q*(p^2 + q^2)"
+[branch]
+curve = "hopf"
+parameters = ["mu", "w"]
+window = [-0.5, 1]
+from = -1.5
+to = 1
+)case");
+  REQUIRE(all.size() == 2);
+  for (const TracedBranch& one : all) {
+    check_passes(one);
+    CHECK(count(one, PointType::hopf_hopf) == 1);
+    for (const BranchPoint& point : one.branch.points)
+      CHECK_THAT(std::abs(value(one, point, "mu")), WithinAbs(std::abs(0.1 * value(one, point, "w")), 1e-9));
   }
 }

@@ -40,7 +40,7 @@ class TorusProblem : public PairProblem {
   Complex eigenvalue(const BasePoint& point) const override;
   ByKappa sum(double kappa) const override { return {2 * kappa, 2}; }
   ByKappa product(double /*kappa*/) const override { return {1, 0}; }
-  void fill(BorderedSolver& solver, double a, double b, const Vector& scales) const override;
+  void fill(BorderedSolver& solver, const Pair& pair, const Vector& scales) const override;
   Vector turned(const Vector& x) const override;
 
  private:

@@ -31,11 +31,11 @@ class HopfProblem : public PairProblem {
   Complex eigenvalue(const BasePoint& point) const override { return std::sqrt(Complex(-point.extras(0))); }
   ByKappa sum(double /*kappa*/) const override { return {0, 0}; }
   ByKappa product(double kappa) const override { return {kappa, 1}; }
-  void fill(BorderedSolver& solver, double a, double b, const Vector& scales) const override;
+  void fill(BorderedSolver& solver, const Pair& pair, const Vector& scales) const override;
   Vector turned(const Vector& x) const override { return -x; }
 
  private:
-  void fill_sparse(BorderedSolver& solver, double b, const Vector& scales) const;
+  void fill_sparse(BorderedSolver& solver, const Pair& pair, const Vector& scales) const;
 
   mutable Matrix doubled_;
 };

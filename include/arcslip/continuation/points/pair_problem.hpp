@@ -1,19 +1,20 @@
 #pragma once
 
-// Points where a matrix of a problem is singular for a pair of conjugate numbers z, as an extended problem.
+// Points where a matrix of a problem is singular for a pair of numbers z, as an extended problem.
 
 #include "arcslip/continuation/points/extended_problem.hpp"
 #include "arcslip/continuation/problem/second_derivative.hpp"
 
 namespace arcslip::continuation {
 
-/// With numbers x + z y, where z^2 = a z - b is real in kappa,
+/// J_0 + z J_1 is singular for both z of a pair, z^2 = a z - b with a and b by e_0 = kappa. With the space V
+/// of both,
 ///
-///   [J_0 + z J_1  b] [v]   [0]
-///   [c^T          0] [g] = [1],    g = 0 (both its parts),    e_0 = kappa.
+///   J_0 V + J_1 V L = 0,   C^T V = 1,   tr L = a,   det L = b,
 ///
-/// It stays regular where both z meet; beyond they are real. J_0 + J_1 may differ from dF/du in what is
-/// constant.
+/// V n x 2 and L 2 x 2, which are found by Newton's method within. It stays regular where both z meet, with
+/// one null vector or with two; beyond they are real, or conjugate again. J_0 + J_1 may differ from dF/du in
+/// what is constant.
 class PairProblem : public ExtendedProblem {
  public:
   [[nodiscard]] bool adapt(const BasePoint& point) override;
@@ -23,6 +24,8 @@ class PairProblem : public ExtendedProblem {
                                  ComplexVector& values) const override;
 
  protected:
+  using Pair = Eigen::Matrix2d;
+
   /// Of a number a or b: its value and its derivative by kappa.
   struct ByKappa {
     double value;
@@ -38,12 +41,17 @@ class PairProblem : public ExtendedProblem {
   virtual ByKappa sum(double kappa) const = 0;      ///< a, of both z
   virtual ByKappa product(double kappa) const = 0;  ///< b
 
-  /// Sets the real form [J_0, -b J_1; J_1, J_0 + a J_1] of the matrix at `at_`, with these `scales` of its
-  /// columns.
-  virtual void fill(BorderedSolver& solver, double a, double b, const Vector& scales) const = 0;
+  /// Sets the matrix of V -> J_0 V + J_1 V L at `at_`, V column after column, with these `scales` of its
+  /// columns: its block (i, j) is J_1 L(j, i), and J_0 on the diagonal.
+  virtual void fill(BorderedSolver& solver, const Pair& pair, const Vector& scales) const = 0;
 
   /// J_1 x
   virtual Vector turned(const Vector& x) const = 0;
+
+  /// By how far the pair is from meeting, `apart` = 0 where it does with one null vector and 0/0 with two,
+  /// where the curve goes on: divided by its own size and by |L - a/2|^2, without which it were 0 there, too.
+  /// No number where that is not known.
+  double meeting_test(const BasePoint& point, double apart) const;
 
   bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
   void each_border(const std::function<void(double*, Index)>& use) override;
@@ -53,14 +61,21 @@ class PairProblem : public ExtendedProblem {
   Index count_;  // unknowns of the base
 
  private:
-  [[nodiscard]] bool solve_borders(double kappa) const;
+  Vector scales() const;
+  [[nodiscard]] bool begin(double kappa);
+  [[nodiscard]] bool solve_space() const;
+  bool has_pair_of(double kappa) const;
+  [[nodiscard]] bool find_space(const BasePoint& point) const;
 
-  std::unique_ptr<BorderedSolver> solver_;  // real form, two parts and two borders
-  Vector column_;                           // b, its two parts
-  Vector row_;                              // c
+  std::unique_ptr<BorderedSolver> solver_;  // of V and of what L is to change by
+  Matrix frame_;                            // C, which V is where it was chosen
+  Pair start_;                              // L there
+  double size_ = 1;                         // of the matrices, as of z
+  double slope_ = 1;                        // of the conditions
   mutable SecondDerivative second_;
-  mutable Vector right_;    // (v, g), two parts each, v in units of the scale
-  mutable Vector left_[2];  // of the two parts of g
+  mutable Matrix space_;     // V in units of the scale
+  mutable Pair pair_;        // L
+  mutable Vector found_at_;  // the unknowns and parameters where these are
 };
 
 }  // namespace arcslip::continuation
