@@ -12,9 +12,11 @@ DoublingProblem::DoublingProblem(const Problem& base, Index active)
     : SingularProblem(base, active, count_beside_duration(base)),
       orbits_(dynamic_cast<const PeriodicOrbit*>(&base)) {}
 
-void DoublingProblem::fill(BorderedSolver& solver) const {
+void DoublingProblem::fill(BorderedSolver& solver, double shift) const {
   if (orbits_ == nullptr) {
-    solver.set_jacobian(Matrix(at_.jacobian() + 2 * Matrix::Identity(count_, count_)), scale_);
+    Matrix beside = at_.jacobian();
+    beside.diagonal() += Vector::Constant(count_, 2) + shift * scale_.cwiseInverse();
+    solver.set_jacobian(beside, scale_);
     return;
   }
   SparseMatrix twisted = at_.sparse_jacobian().topLeftCorner(count_, count_);

@@ -11,7 +11,12 @@ namespace arcslip::continuation {
 
 FoldProblem::FoldProblem(const Problem& base, Index active) : SingularProblem(base, active, base.size()) {}
 
-void FoldProblem::fill(BorderedSolver& solver) const { at_.fill(solver, scale_); }
+void FoldProblem::fill(BorderedSolver& solver, double shift) const {
+  at_.fill(solver, scale_);
+  if (shift == 0 || at_.sparse()) return;
+  const Matrix shifts = shift * scale_.cwiseInverse().asDiagonal();
+  solver.set_jacobian(Matrix(at_.jacobian() + shifts), scale_);
+}
 
 double FoldProblem::quadratic(const BasePoint& point) const {
   // 0 = w^T F_p (p_a - p_a*) + 1/2 w^T F_uu v v x^2 + ...

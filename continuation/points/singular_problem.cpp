@@ -1,6 +1,7 @@
 #include "arcslip/continuation/points/singular_problem.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "arcslip/continuation/linear/borders.hpp"
 
@@ -16,12 +17,17 @@ SingularProblem::SingularProblem(const Problem& base, Index active, Index count)
       column_(spread(count, 1)),
       row_(spread(count, 2)) {}
 
+/// Where a second eigenvalue vanishes to the last digit, what is found is that of a point beside, as rounding
+/// makes it nearly everywhere.
 bool SingularProblem::solve_borders() const {
-  fill(*solver_);
   solver_->columns().col(0) = column_;
   solver_->rows().row(0) = row_.transpose();
   solver_->corner()(0, 0) = 0;
-  if (solver_->factor() == 0) return false;
+  fill(*solver_, 0);
+  if (solver_->factor() == 0) {
+    fill(*solver_, std::numeric_limits<double>::epsilon() * column_size(at_, scale_));
+    if (solver_->factor() == 0) return false;
+  }
   right_.setUnit(count_);
   solver_->solve(right_);
   left_.setUnit(count_);

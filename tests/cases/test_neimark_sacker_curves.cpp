@@ -310,3 +310,29 @@ to = 1
       CHECK_THAT(std::abs(value(one, point, "mu")), WithinAbs(std::abs(0.1 * value(one, point, "w")), 1e-9));
   }
 }
+
+TEST_CASE("Curves of period doublings that do not touch each other cross", "[cycles]") {
+  const auto all = traced_of(R"case(
+[model]
+kind = "map"
+[model.parameters]
+a = 0
+b = 0.5
+[model.equations]
+x = "-(1 + a - b)*x + x^3"
+y = "-(1 + a + b)*y + y^3"
+[branch]
+curve = "period_doubling"
+parameters = ["a", "b"]
+window = [-0.9, 0.9]
+from = -0.8
+to = 0.8
+)case");
+  REQUIRE(all.size() == 2);
+  for (const TracedBranch& one : all) {
+    CHECK(one.branch.complete());
+    check_values(values_at(one, PointType::resonance_1_2, "b"), {0}, 1e-9);
+    for (const BranchPoint& point : one.branch.points)
+      CHECK_THAT(std::abs(value(one, point, "a")), WithinAbs(std::abs(value(one, point, "b")), 1e-9));
+  }
+}

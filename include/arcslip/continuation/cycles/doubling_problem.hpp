@@ -24,7 +24,7 @@ class DoublingProblem : public SingularProblem {
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
 
  protected:
-  void fill(BorderedSolver& solver) const override;
+  void fill(BorderedSolver& solver, double shift) const override;
 
  private:
   const PeriodicOrbit* orbits_;  // null of a map

@@ -33,7 +33,7 @@ class FoldProblem : public SingularProblem {
   double quadratic(const BasePoint& point) const;
 
  protected:
-  void fill(BorderedSolver& solver) const override;
+  void fill(BorderedSolver& solver, double shift) const override;
 };
 
 }  // namespace arcslip::continuation

@@ -28,8 +28,8 @@ class SingularProblem : public ExtendedProblem {
   /// `active` becomes an unknown; J is of the first `count` unknowns. The base is kept by reference.
   SingularProblem(const Problem& base, Index active, Index count);
 
-  /// Sets J = the matrix at `at_` times diag(`scale_`).
-  virtual void fill(BorderedSolver& solver) const = 0;
+  /// Sets J = the matrix at `at_` times diag(`scale_`); of a dense one, with `shift` on its diagonal.
+  virtual void fill(BorderedSolver& solver, double shift) const = 0;
 
   [[nodiscard]] bool solve_borders() const;
   bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
