@@ -71,12 +71,36 @@ void settle(const ExtendedProblem& problem, const std::string& parameter, Branch
   half.explanation = fmt::format("the curve ends on a {} point", end->type_name());
 }
 
+/// But for how well points are located.
+bool lies_within(const CurveWindow& window, double value, double tolerance) {
+  constexpr double loosely = 100;
+  const double margin = loosely * tolerance * std::max(1.0, std::abs(value));
+  return value >= window.low - margin && value <= window.high + margin;
+}
+
+/// Without what lies outside of the window, as a start may that was corrected far.
+void leave_window(Branch& half, const CurveWindow& window, Index n, double tolerance) {
+  std::erase_if(half.points,
+                [&](const BranchPoint& point) { return !lies_within(window, point.unknowns(n), tolerance); });
+  half.checkpoint.reset();
+  half.stop = half.points.empty() ? Stop::no_start : Stop::left_range;
+  half.explanation = "the curve was found to go on only outside of the window";
+}
+
 Branch begin_half(ExtendedProblem& problem, const Guess& start, bool towards_to, const TraceOptions& options,
-                  const OrbitOptions& orbits, const Observer& observer) {
+                  const CurveWindow& window, const OrbitOptions& orbits, const Observer& observer) {
   if (!problem.adapt(problem.split(start.unknowns, start.parameters, start.regime))) return {};
-  return trace_part(
-      problem, start, towards_to, options, observer,
-      [&](Branch& half) { settle(problem, options.parameter, half); }, {}, orbits);
+  const Index n = problem.base().size();
+  bool is_outside = false;
+  const Observer inside = [&](const BranchPoint& point) {
+    is_outside = !lies_within(window, point.unknowns(n), options.tolerance);
+    return !is_outside && (!observer || observer(point));
+  };
+  const auto ended = [&](Branch& half) {
+    if (is_outside) leave_window(half, window, n, options.tolerance);
+    settle(problem, options.parameter, half);
+  };
+  return trace_part(problem, start, towards_to, options, inside, ended, {}, orbits);
 }
 
 /// By how much an observable is above the value of a level.
@@ -191,19 +215,22 @@ Branch trace_from(ExtendedProblem& problem, const BasePoint& start, const Vector
   problem.join(start, guess.unknowns, guess.parameters);
   if (direction.size() == 0) {
     const auto located = locate(problem, start, options.tolerance);
-    if (located) {
+    const bool is_inside =
+        located && lies_within(window, located->point.parameters(problem.active()), options.tolerance);
+    if (is_inside) {
       problem.join(located->point, guess.unknowns, guess.parameters);
     } else if (!problem.adapt(start) || !nearly_solves(problem, guess)) {  // else its parameter stands still
       Branch none;
-      none.explanation = "no special point of this kind was found next to the start";
+      none.explanation = located ? "the special point that was found lies outside of the window"
+                                 : "no special point of this kind was found next to the start";
       return none;
     }
   }
   const long to_locate = problem.evaluations() - before;
   const TraceOptions all = bounded(problem, options, window, guess.unknowns, guess.regime);
   const TimeBudget time(all);
-  const auto ahead = [&] { return begin_half(problem, guess, true, all, orbits, observer); };
-  const auto back = [&] { return begin_half(problem, guess, false, time.rest(), orbits, observer); };
+  const auto ahead = [&] { return begin_half(problem, guess, true, all, window, orbits, observer); };
+  const auto back = [&] { return begin_half(problem, guess, false, time.rest(), window, orbits, observer); };
   Branch curve = direction.size() > 0 ? ahead() : trace_parts(ahead, back, guess);
   curve.work.evaluations += to_locate;
   return told(most_telling(std::move(curve)), window);
@@ -294,7 +321,7 @@ Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const Trac
     return rest;
   };
   const auto begin_back = [&](const Guess& guess) {
-    return begin_half(problem, guess, false, time.rest(), fixed, observer);
+    return begin_half(problem, guess, false, time.rest(), *checkpoint.window, fixed, observer);
   };
   return told(most_telling(resume_parts(checkpoint, go_on, begin_back)), *checkpoint.window);
 }

@@ -4,6 +4,7 @@
 
 #include "arcslip/continuation/cycles/doubling_problem.hpp"
 #include "arcslip/continuation/cycles/torus_problem.hpp"
+#include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 #include "arcslip/continuation/points/fold_problem.hpp"
 #include "arcslip/continuation/points/hopf_problem.hpp"
@@ -14,11 +15,16 @@ namespace arcslip::continuation {
 namespace {
 
 /// Whether a point is a branch point that needs no perturbation, as a symmetry keeps them: along a curve of
-/// these the equations of folds are singular.
+/// these the equations of folds are singular. Where its parameter stands still it is not located anew.
 bool is_kept_branch_point(const ExtendedProblem& curve, const BasePoint& at) {
   BranchPointProblem branch_points(curve.base(), curve.active());
   BasePoint start = at;
   start.extras = Vector::Zero(1);
+  if (branch_points.settle(start)) {
+    Guess guess{{}, {}, at.regime, {}};
+    branch_points.join(start, guess.unknowns, guess.parameters);
+    if (nearly_solves(branch_points, guess)) return true;
+  }
   const auto located = locate(branch_points, start);
   constexpr double there = 1e-6;  // far above what points are located to
   const double parameter = at.parameters(curve.active());

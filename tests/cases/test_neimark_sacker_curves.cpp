@@ -336,3 +336,30 @@ to = 0.8
       CHECK_THAT(std::abs(value(one, point, "a")), WithinAbs(std::abs(value(one, point, "b")), 1e-9));
   }
 }
+
+TEST_CASE("No curve that leaves a special point has points outside of its window", "[hopf]") {
+  // On m1 = 0 the origin is a branch point whatever m2 is, which the equations of folds put anywhere.
+  const auto all = traced_of(R"case(
+[model.parameters]
+m1 = -0.5
+m2 = -0.5
+[model.equations]
+x = "y"
+y = "m1*x + m2*y - x^3 - x^2*y"
+[branch]
+curve = "hopf"
+parameters = ["m2", "m1"]
+window = [-0.5, 2]
+from = -1
+to = 2
+switching = true
+)case");
+  REQUIRE(!all.empty());
+  CHECK(count(all[0], PointType::bogdanov_takens) == 1);
+  for (const TracedBranch& one : all) {
+    for (const BranchPoint& point : one.branch.points) {
+      CHECK(value(one, point, "m2") > -0.5 - 1e-6);
+      CHECK(value(one, point, "m2") < 2 + 1e-6);
+    }
+  }
+}
