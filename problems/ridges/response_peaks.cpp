@@ -178,8 +178,12 @@ Branch ResponsePeaks::traced_at(double across, bool is_rough) {
   constexpr double finer = 0.2;  // of the longest step: other points, so that a chance is not met again
   if (!branch.complete()) branch = trace_over(across, finer * response_.options.max_step, is_rough);
   if (!branch.complete() || branch.points.back().parameters(along_) != response_.to) {
-    throw std::runtime_error(fmt::format("the response at {} = {:.10g} could not be traced: {}",
-                                         response_.across, across, branch.explanation));
+    const bool asks = response_.reason_of_end && !branch.points.empty();
+    const std::string why =
+        asks ? response_.reason_of_end(branch.points.back().parameters(along_)) : std::string();
+    throw std::runtime_error(fmt::format("the response at {} = {:.10g} could not be traced: {}{}{}",
+                                         response_.across, across, branch.explanation,
+                                         why.empty() ? "" : ": ", why));
   }
   return branch;
 }

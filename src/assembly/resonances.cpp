@@ -1,9 +1,12 @@
 #include "arcslip/assembly/resonances.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/assembly/system.hpp"
 
 namespace arcslip {
@@ -42,6 +45,35 @@ std::vector<Resonance> resonances(const SystemParameters& system, const ContactS
     own.push_back(one);
   }
   return own;
+}
+
+std::string undamped_resonance(const SystemParameters& system, double eta) {
+  constexpr double near = 1e-6;       // of eta: where a branch stands still before it
+  constexpr double undamped = 1e-12;  // damping ratio: rounding
+  if (structures_of(system).whole() != nullptr) return {};
+  const HarmonicSystem harmonics = build_harmonic_system(system);
+  const Vector springs = contact_springs(harmonics.contacts);
+  for (Index a = 1; a < std::ssize(harmonics.orders); ++a) {
+    const auto i = static_cast<std::size_t>(a);
+    const int h = harmonics.orders[i];
+    if (h == 0) continue;
+    const double place = harmonics.multiple(a) * eta;
+    for (const JoinedMode& mode : joined_modes({&harmonics.base[i], &harmonics.damper[i]}, springs)) {
+      const bool is_here = std::abs(mode.frequency - place) <= near * place;
+      if (!is_here || std::abs(mode.damping) > undamped || !harmonics.base[i].at(place).free.isZero(0))
+        continue;
+      const Index waves = system.first_wave() * h % system.elements;
+      const std::string wave = system.elements > 1
+                                   ? fmt::format(", the wave {} of {} sectors,",
+                                                 std::min(waves, system.elements - waves), system.elements)
+                                   : "";
+      return fmt::format(
+          "the harmonic {}{} resonates without damping at eta = {:.10g} while contacts stick, so that its "
+          "motion is not determined there",
+          harmonics.name(a), wave, mode.frequency / harmonics.multiple(a));
+    }
+  }
+  return {};
 }
 
 double locking_preload(const ContactSystem& wave, const std::vector<double>& etas) {

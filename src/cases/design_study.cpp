@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/assembly/resonances.hpp"
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/assembly/whole_ring.hpp"
 #include "arcslip/cases/runs.hpp"
@@ -48,9 +49,10 @@ problems::ResponsePeaks responses(const StudyCase& study, const StudyDesign& des
   if (!subject.failure.empty())
     throw std::runtime_error(fmt::format("no response at eta = {:g}, P = {:g}: {}", design.range.eta_low,
                                          design.range.to, subject.failure));
-  return problems::ResponsePeaks({in_one_piece(design, subject.built.problem), "eta", "P",
-                                  design.range.eta_low, design.range.eta_high, study.objective, subject.guess,
-                                  study.options, design.pattern > 0});
+  return problems::ResponsePeaks(
+      {in_one_piece(design, subject.built.problem), "eta", "P", design.range.eta_low, design.range.eta_high,
+       study.objective, subject.guess, study.options, design.pattern > 0,
+       [system = request.system](double eta) { return undamped_resonance(system, eta); }});
 }
 
 problems::StudiedContacts contacts_of(const SystemParameters& system) {

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "arcslip/assembly/resonances.hpp"
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
@@ -278,6 +279,22 @@ std::vector<TracedBranch> trace_balanced(const Request& request, const TimeBudge
   }
 }
 
+/// Says of a response that went no further what it may have met there.
+void explain_end(TracedBranch& one) {
+  using continuation::Stop;
+  Branch& branch = one.branch;
+  const ProblemRequest& problem = one.request->problem;
+  const bool is_stuck = branch.stop == Stop::min_step || branch.stop == Stop::repeats;
+  if (!is_stuck || one.curve || branch.points.empty() || problem.model != nullptr ||
+      problem.response->has_own_frequency())
+    return;
+  const Index eta = continuation::index_of(one.problem().parameter_names(), "eta");
+  SystemParameters system = problem.system;
+  system.harmonics = one.base.harmonics;
+  const std::string why = undamped_resonance(system, branch.points.back().parameters(eta));
+  if (!why.empty()) branch.explanation += ": " + why;
+}
+
 }  // namespace
 
 std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer) {
@@ -287,6 +304,7 @@ std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::O
   std::vector<TracedBranch> traced = request.problem.harmonics_tolerance
                                          ? trace_balanced(kept, time, observer)
                                          : trace_given(kept, time, observer);
+  std::for_each(traced.begin(), traced.end(), explain_end);
   const auto is_left = [](const TracedBranch& one) { return is_unfinished(one.branch.stop); };
   const bool goes_on = request.switching && request.problem.stability &&
                        !request.problem.response->has_own_frequency() &&

@@ -7,6 +7,7 @@
 #include "arcslip/problems/tasks/verification.hpp"
 #include "arcslip/results/results.hpp"
 #include "case_runs.hpp"
+#include "cases/design_study.hpp"
 #include "mistakes.hpp"
 #include "program.hpp"
 
@@ -21,6 +22,32 @@ const std::string small_rods =
 const std::string over_resonance = "[branch]\nparameter = \"eta\"\nfrom = 1.4\nto = 2.4\n";
 
 }  // namespace
+
+TEST_CASE("Where a harmonic resonates without damping a response that ends there says so", "[harmonics]") {
+  // Of three rods each the harmonic 3 moves all alike: nothing resists but the stuck contacts, nothing damps
+  // it.
+  const double eta = std::sqrt(1e4 * (1 + 1 / 20.0)) / (3 * two_pi);
+  const std::string three =
+      "[system]\nmodel = \"rods\"\nwave_number = 1\nelements = 3\nmass_ratio = 20.0\nfrequency_ratio = "
+      "4.0\ninterface_stiffness = 1e4\ndamping = { base = 0.01, damper = 0.01 }\nforce = 1.0\n";
+  const auto is_said = ContainsSubstring(fmt::format(
+      "the harmonic 3, the wave 0 of 3 sectors, resonates without damping at eta = {:.10g}", eta));
+  const TemporaryFolder folder;
+  const Case input =
+      read_case(folder.write("case.toml", three + "harmonics = 3\npreload = 0.1\n[branch]\nparameter = "
+                                                  "\"eta\"\nfrom = 1.6\nto = 8.0\n"));
+  const auto traced = trace(input.branches.front());
+  REQUIRE(traced.size() == 1);
+  CHECK_FALSE(traced[0].branch.complete());
+  CHECK_THAT(traced[0].branch.explanation, is_said);
+  const StudyCase study = read_study(folder.write(
+      "study.toml",
+      three + "harmonics = 3\n[study]\nparameter = \"P\"\nfrom = 0.01\nto = 10.0\neta = [1.6, 8.0]\n"));
+  CHECK_THAT(study_preload(study, study.design(0)).failure, is_said);
+  const Case damped = read_case(folder.write(
+      "damped.toml", small_rods + "harmonics = 3\n" + over_resonance + "[continuation]\nmax_points = 5\n"));
+  CHECK_THAT(trace(damped.branches.front()).at(0).branch.explanation, !ContainsSubstring("without damping"));
+}
 
 TEST_CASE("The case of three numbers of harmonics has the peaks that it says", "[cases]") {
   const Run run("harmonics");

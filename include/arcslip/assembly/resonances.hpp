@@ -24,6 +24,10 @@ std::vector<Resonance> resonances(const ContactSystem& wave);
 /// of their elements.
 std::vector<Resonance> resonances(const SystemParameters& system, const ContactSystem& wave);
 
+/// Which harmonic that no load acts in has a resonance of the stuck whole without damping here, as a clause;
+/// empty if none has, and of whole rings. While the contacts stick, its motion is any that they bear.
+std::string undamped_resonance(const SystemParameters& system, double eta);
+
 /// The highest preload at which a contact slips at one of these eta, of contacts whose preload does not grow
 /// with eta, in the first harmonic of linear structures; 0 without load.
 double locking_preload(const ContactSystem& wave, const std::vector<double>& etas);

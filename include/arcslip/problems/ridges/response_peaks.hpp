@@ -34,6 +34,8 @@ struct PeakedResponse {
   continuation::Guess start;           ///< a solution at `from`, for some value > 0 of `across`
   continuation::TraceOptions options;  ///< tolerance and limits of steps
   bool is_polished = false;  ///< whether peaks are located beside the response, from roughly where they are
+  /// Why it may end at a value of `along`, as a clause; empty where nothing is known.
+  std::function<std::string(double)> reason_of_end = {};
 };
 
 /// What makes a peak.
