@@ -179,3 +179,50 @@ TEST_CASE("Derivatives of the force jump where a further slip begins, and only t
     CHECK(begun > 3);
   }
 }
+
+TEST_CASE("No further slip begins where parts that come to touch no longer stick at first", "[slips]") {
+  for (const double share : {0.0, 0.1, 0.3, -0.2}) {
+    const Sliding contact{
+        find_element_kind("friction_2d")->make({{1.0, 0.4, 0.5, 0.0, 0.25}, 1, two_pi, true}),
+        {1, 0},
+        1,
+        0.5,
+        0.4,
+        0.2,
+        true};
+    // press = 0.2 + 0.4 cos(theta) from theta = 4 pi/3 on, 0 before
+    const auto at = [&](double phase) {
+      HarmonicVector x = HarmonicVector::Zero(6);
+      x(0) = std::polar(0.6, phase);
+      x(2) = Complex(0, share) * x(0);
+      x(4) = 1;
+      return x;
+    };
+    const auto told = [&](double phase) { return contact.force(at(phase)).further_slips.functions; };
+    int changes = 0;
+    constexpr int places = 200;
+    for (int i = 0; i < places; ++i) {
+      double a = two_pi * i / places, b = two_pi * (i + 1) / places;
+      if (!contact.slips(at(a)) || !contact.slips(at(b))) continue;
+      for (std::size_t which = 0; which < 2; ++which) {
+        const double before = told(a)[which];
+        if (before * told(b)[which] > 0) continue;
+        double low = a, high = b;
+        while (high - low > 1e-14) {
+          const double middle = 0.5 * (low + high);
+          (told(middle)[which] * before > 0 ? low : high) = middle;
+        }
+        const double jump =
+            (contact.force(at(high + 1e-7)).linear - contact.force(at(low - 1e-7)).linear).norm();
+        if (jump > 1e-3) continue;
+        ++changes;
+        for (int k = -100; k <= 100; ++k) {
+          const double phase = low + k * 1e-15;
+          CAPTURE(share, i, which, low, k);
+          CHECK(std::abs(told(phase)[which]) > 1e-4);
+        }
+      }
+    }
+    CHECK(changes > 0);
+  }
+}

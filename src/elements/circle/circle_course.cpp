@@ -100,7 +100,7 @@ void CircleCourse::pass_contact(double begin, double end, std::optional<Complex>
       if (until >= end) return;
       const Complex force = motion_.at(until).centre - rests;
       direction = std::arg(force);
-      const bool goes_on = offset && at == begin && until - at < same;  // slip, but for rounding
+      const bool goes_on = until - at < same;  // slip, but for rounding
       begins = goes_on ? nullptr : &slips_along(force);
       at = until;
     }
@@ -118,10 +118,13 @@ void CircleCourse::pass_contact(double begin, double end, std::optional<Complex>
 }
 
 /// Where the force reaches the circle, or the end. It falls from there at first where slip has ended.
-/// Extremes of the excess are looked for one part of the period after the other, as stick may be short.
+/// Extremes of the excess are looked for one part of the period after the other, as stick may be short. It
+/// begins with a slope of 0, near which others may be rounding: what comes near to the circle there is none
+/// that is yet to reach it.
 double CircleCourse::leaves(double begin, double end, Complex offset) {
   constexpr double rounding = 1e-15;
   constexpr double same = 1e-9;
+  constexpr double beside = 1e-6;  // above the root of rounding
   constexpr double part = two_pi / 8;
   const PeriodicMotion slope = motion_.excess(offset, 0).derivative();
   const auto slope_at = [&](double theta) {
@@ -153,7 +156,7 @@ double CircleCourse::leaves(double begin, double end, Complex offset) {
         if (excess(last).first >= 0) return last;
         return bracketed_newton(excess, 0.5 * (last + turn), last, turn, true);
       }
-      if (turn < end && slope.at(turn).first < 0) {
+      if (turn > begin + beside && turn < end && slope.at(turn).first < 0) {
         const CircleMotion::Local here = motion_.at(turn);
         const Complex force = here.centre - offset;
         slips_along(force).stick(std::max(0.0, here.radius - std::abs(force)));
