@@ -72,8 +72,11 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
   if (const std::optional<std::size_t> piece = step.watch.piece_of(i)) {
     ZeroSearch zeros(step.stepper, step.readings, {.jumps_count = false, .left_over = 1e-5});
     const std::size_t pieces = step.readings.function(static_cast<Index>(*piece));
-    step.note(kind, step.watch.type(i), index,
-              zeros.first_of_pieces({which, pieces}, before, may_vanish, 0, to));
+    Zero zero = zeros.first_of_pieces({which, pieces}, before, may_vanish, 0, to);
+    // Functions that vanish together but for rounding do so at the last of these places, behind which all
+    // have their other sign: on a piece that lies within the step none would have it at the first.
+    if (to - zero.s <= step.tolerances.located * step.stepper.step().distance) zero.s = to;
+    step.note(kind, step.watch.type(i), index, zero);
   } else if (changes || may_vanish) {
     // A determinant is found to rounding, and runs through decades.
     ZeroOptions options{.jumps_count = false, .left_over = is_determinant ? 1e-8 : ZeroOptions{}.left_over};

@@ -89,6 +89,30 @@ TEST_CASE("Zeros of a function in pieces are found between its jumps, in whateve
   }
 }
 
+TEST_CASE("Zeros of functions in pieces that coincide but for rounding are all found", "[close]") {
+  const ScalarProblem line(
+      {"p"}, [](double u, const Vector& p) { return u - p(0); }, [](double, const Vector&) { return 1; },
+      {[](double, const Vector&) { return -1; }});
+  const auto piece_at = [](const Vector& u, const Vector&, const Regime&) { return u(0) < 0.41 ? 0 : 1; };
+  for (const double off : {-1e-14, -1e-15, 0.0, 1e-15, 1e-14}) {
+    for (const double max_step : {0.003, 0.01, 0.03, 0.1, 0.3, 1.0}) {
+      CAPTURE(off, max_step);
+      const auto vanishing_at = [](double place) {  // negative but between the jump and the place
+        return [place](const Vector& u, const Vector&, const Regime&) {
+          return u(0) < 0.41 ? -1 : place - u(0);
+        };
+      };
+      TraceOptions options = over("p", 0, 1);
+      options.max_step = max_step;
+      options.events = {{"first", vanishing_at(0.45), piece_at},
+                        {"second", vanishing_at(0.45 + off), piece_at}};
+      const Branch branch = trace(line, {vector_of({0}), vector_of({0})}, options);
+      REQUIRE(branch.complete());
+      CHECK(of_type(branch, PointType::event).size() == 2);
+    }
+  }
+}
+
 TEST_CASE("A function that touches zero in a step changes its sign there as well") {
   const ScalarProblem line(
       {"p"}, [](double u, const Vector& p) { return u - p(0); }, [](double, const Vector&) { return 1; },
