@@ -75,7 +75,8 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
     Zero zero = zeros.first_of_pieces({which, pieces}, before, may_vanish, 0, to);
     // Functions that vanish together but for rounding do so at the last of these places, behind which all
     // have their other sign: on a piece that lies within the step none would have it at the first.
-    if (to - zero.s <= step.tolerances.located * step.stepper.step().distance) zero.s = to;
+    const double located = step.tolerances.located * step.stepper.step().distance;
+    if (to - zero.s <= std::max(located, ZeroSearch::no_way)) zero.s = to;
     step.note(kind, step.watch.type(i), index, zero);
   } else if (changes || may_vanish) {
     // A determinant is found to rounding, and runs through decades.

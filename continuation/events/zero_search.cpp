@@ -115,6 +115,7 @@ Zero ZeroSearch::first_of_pieces(const PiecewiseFunction& of, int sign, bool two
     return first.state == Zero::State::absent ? first_of_pieces(of, 0, false, middle, to) : first;
   }
   if (!changes) return {Zero::State::absent};
+  if (to - from < 2 * no_way) return {Zero::State::found, to};  // whether it jumps there cannot be told
   const Zero zero = by_sign({from, *a, 0}, {to, *b, 0}, before, of.value);
   return zero.state == Zero::State::found ? just_behind_corner(zero.s, to, before, of.value) : zero;
 }
@@ -123,7 +124,8 @@ Zero ZeroSearch::first_of_pieces(const PiecewiseFunction& of, int sign, bool two
 /// passed, it is where the function is known to have its other sign.
 Zero ZeroSearch::just_behind_corner(double s, double to, int before, std::size_t which) {
   constexpr double least_way = 1e-11;  // relative to the step: growth rates go with the root of it
-  for (double way = least_way * to; s + way < to; way *= 4) {
+  constexpr double rounding = 2e-15;   // of what is read, some bits of a place
+  for (double way = std::max(least_way * to, rounding); s + way < to; way *= 4) {
     const std::optional<double> value = readings_.value(which, s + way);
     if (value && sign_of(*value) == -before) return {Zero::State::found, s + way};
   }

@@ -1,6 +1,8 @@
 // What comes out of a case does not hang on the length of its steps, nor on how far it goes.
 
+#include "case_runs.hpp"
 #include "cycle_cases.hpp"
+#include "small_structures.hpp"
 
 namespace {
 
@@ -265,5 +267,46 @@ to = 1
     CHECK(!branch.complete());
     CHECK(branch.points.size() < 100);
     CHECK_THAT(branch.points.back().parameters(0), WithinAbs(0.3, 1e-12));
+  }
+}
+
+TEST_CASE("Further slips of two contacts, forwards and backwards at once, are told once each", "[slips]") {
+  SmallStructure alike;  // a peak on the corner where they begin
+  alike.mass = Matrix::Identity(2, 2);
+  alike.stiffness = (Matrix(2, 2) << 2, -0.5, -0.5, 2).finished();
+  alike.damping = 0.02 * alike.stiffness;
+  alike.load = ComplexVector::Ones(2);
+  alike.contact_stiffness = {1, 1};
+  alike.preload = 0.3;
+  const TemporaryFolder folder;
+  write_matrices(alike, folder);
+  std::string text = small_system_text(alike, "5");
+  text.insert(text.find("harmonics"), "even_harmonics = true\npath = \"full\"\n");
+  text += "[branch]\nparameter = \"eta\"\nfrom = 0.06\nto = 0.08\n";
+  for (const double step : {0.01, 0.02, 0.05, 0.1, 0.2, 0.4}) {
+    CAPTURE(step);
+    const Case input = read_case(folder.write("case.toml", text + with_steps(step)));
+    const auto traced = trace(input.branches.front());
+    REQUIRE(traced.size() == 1);
+    CHECK(traced[0].branch.complete());
+    CHECK(points(traced[0], PointType::peak).size() == 1);
+    CHECK(points(traced[0], PointType::trough).empty());
+    std::set<std::string> slips;
+    for (const BranchPoint& point : points(traced[0], PointType::event)) slips.emplace(point.type_name());
+    CHECK(points(traced[0], PointType::event).size() == 4);
+    CHECK(slips.size() == 4);
+  }
+}
+
+TEST_CASE("Further slips that end soon after the motion turns back are told in whatever steps", "[slips]") {
+  for (const double step : {0.01, 0.02, 0.05, 0.1, 0.3}) {
+    CAPTURE(step);
+    const Run run("nlvib_elements",
+                  {fmt::format("continuation.max_step={}", step), "branch.from=0.174", "branch.to=0.178"});
+    std::map<std::string, int> count;
+    for (const BranchPoint& point : points(run.traced[0], PointType::event))
+      ++count[std::string(point.type_name())];
+    CHECK(count["further_slip_forwards"] == 2);
+    CHECK(count["further_slip_backwards"] == 2);
   }
 }

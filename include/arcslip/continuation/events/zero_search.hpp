@@ -41,6 +41,9 @@ class ZeroSearch {
   /// that in the middle. A little behind it, where the derivatives are those of what follows.
   Zero first_of_pieces(const PiecewiseFunction& of, int sign, bool two, double from, double to);
 
+  /// What rounding moves a place by: the scale makes points of order 1.
+  static constexpr double no_way = 1e-14;
+
  private:
   static constexpr double finest_ = 1e-3;  // of a step: in less than this it is not cut into pieces
   using ValueAt = std::function<std::optional<double>(double s)>;
