@@ -18,6 +18,14 @@ constexpr double rounding = 1e-12;  // of the determinant's slope at a branch po
 constexpr double a_little_way = 1e-3;  // of the largest step: on it the determinant changes from that of a
 constexpr double much_less = 1e-5;     // branch point by much
 
+/// Whether the determinant has another sign at two places although its slope at none of them leads to zero.
+bool leaps(const Node& p, const Node& q) {
+  const auto keeps = [&](const Node& end) {
+    return 2 * std::abs(end.slope) * (q.s - p.s) < std::abs(end.value);
+  };
+  return p.value * q.value < 0 && keeps(p) && keeps(q);
+}
+
 }  // namespace
 
 CrossingSearch::CrossingSearch(Corrector& corrector, Prober& prober, Step& step, const Tolerances& tolerances)
@@ -72,7 +80,7 @@ bool CrossingSearch::may_find(bool pairs) const {
   return may_vanish_twice({places.data(), count}, {values.data(), count});
 }
 
-bool CrossingSearch::search() {
+bool CrossingSearch::search(bool may_leap) {
   log_here_ = step_.here.log_determinant + std::log(step_.normal.dot(step_.here.tangent));
   log_there_ = corrector_.log_determinant();
   unit_ = std::max(log_here_, log_there_);
@@ -86,10 +94,31 @@ bool CrossingSearch::search() {
     return false;  // on another one
   const FirstZero found = first_zero(*from, *to, at, tolerances_.one_branch_point * step_.distance);
   if (found.kind == FirstZero::Kind::none) return true;
+  if (may_leap && found.kind == FirstZero::Kind::change && leaps(found.before, found.behind)) return false;
   if (found.kind != FirstZero::Kind::unknown && locate(found.before, found.behind)) return true;
   // So near to where several eigenvalues vanish at once that no point is found, or signs are rounding.
   const bool is_near = found.behind.s - found.before.s <= widest * step_.distance;
   return is_near && locate(found.before, found.before);
+}
+
+bool CrossingSearch::jumps() {
+  const std::optional<Node> from = from_zero_ > 0 ? std::nullopt : determinant_at(0);
+  const std::optional<Node> to = from ? determinant_at(step_.distance) : std::nullopt;
+  if (!to || !leaps(*from, *to)) return false;
+  double low = 0;
+  Step::Crossing corner{step_.distance, step_.there, step_.slope_to, step_.parameter_rate_to()};
+  while (corner.s - low > tolerances_.located * step_.distance) {
+    const double middle = 0.5 * (low + corner.s);
+    if (!prober_.probe(middle)) return false;
+    if (corrector_.orientation() == step_.here.orientation) {
+      low = middle;
+      continue;
+    }
+    corner = {middle, prober_.probed().point, prober_.probed().slope, prober_.probed().parameter_rate()};
+    corrector_.set_tangent(corner.point, step_.here);
+  }
+  step_.crossing = std::move(corner);
+  return true;
 }
 
 /// How far from the start the determinant is as it begins and yet no rounding, as the parameter's change.

@@ -8,13 +8,14 @@
 namespace arcslip::continuation {
 
 Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step,
-                 bool pairs, const Tolerances& tolerances, bool rough_extrema)
+                 bool pairs, const Tolerances& tolerances, bool rough_extrema, bool may_bend)
     : problem_(problem),
       corrector_(corrector),
       tolerances_(tolerances),
       max_step_(max_step),
       pairs_(pairs),
       rough_extrema_(rough_extrema),
+      may_bend_(may_bend),
       monitors_(problem, corrector.parameter(), std::move(tracked)),
       prober_(corrector, monitors_, step_),
       crossings_(corrector, prober_, step_, tolerances),
@@ -280,8 +281,10 @@ bool Stepper::finish(bool lands, double value) {
     }
   }
   const bool keeps_way = step_.there.orientation == step_.here.orientation;
-  if (is_regular() ? keeps_way : !crossings_.may_find(pairs_) || crossings_.search()) return true;
-  if (keeps_way && step_.is_tiny(step_.distance)) return true;  // a corner
+  if (is_regular() ? keeps_way : !crossings_.may_find(pairs_) || crossings_.search(may_bend_)) return true;
+  const bool may_leap = may_bend_ && !keeps_way && !corner && !is_regular();
+  if (step_.is_tiny(step_.distance) && (keeps_way || (may_leap && crossings_.jumps())))
+    return true;  // a corner
   signals_.turn = limits_.turn_limit * 4;
   return false;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "arcslip/continuation/events/corner.hpp"
+#include "arcslip/continuation/points/extended_problem.hpp"
 #include "arcslip/continuation/problem/evaluation.hpp"
 
 namespace arcslip::continuation {
@@ -29,6 +30,9 @@ bool looks_for_pairs(const Problem& problem, const TraceOptions& options) {
   return options.branch_point_pairs.value_or(problem.switch_count() <= 1 || problem.size() <= many);
 }
 
+/// Whether F is continuous at corners within a regime: conditions on special points are made of derivatives.
+bool may_bend(const Problem& problem) { return dynamic_cast<const ExtendedProblem*>(&problem) == nullptr; }
+
 constexpr double first_step = 1e-6;  // of the largest: where a corner may have made the last one shorter
 
 /// Ends a branch in the midst of a step.
@@ -47,7 +51,8 @@ Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observ
           problem, parameter_,
           {.tolerance = options.tolerance, .watch = [this] { watch_clock(); }, .over_parameter = true}),
       stepper_(problem, corrector_, tracked_observables(problem, options), options.max_step,
-               looks_for_pairs(problem, options), options.tolerances, options.rough_extrema),
+               looks_for_pairs(problem, options), options.tolerances, options.rough_extrema,
+               may_bend(problem)),
       watch_(problem, options.events),
       targets_(problem, parameter_, options),
       image_(options.symmetries, options.tolerances.same_solution) {

@@ -1,5 +1,5 @@
 // Curves of peaks and troughs beside friction that lifts off and further contacts that slip: their points are
-// extremes of responses.
+// extremes of responses. Responses with even harmonics where odd ones suffice.
 
 #include <fmt/format.h>
 
@@ -76,4 +76,35 @@ TEST_CASE("Curves of peaks beside friction that lifts off and further contacts p
   CHECK(traced > 16);
   CHECK(complete > 0.9 * traced);
   CHECK(passed > 24);
+}
+
+TEST_CASE("Even harmonics leave an odd response what it is, also where another one leaves it on a corner",
+          "[even]") {
+  const Settings range{"branch.from=0.235", "branch.to=0.26"};
+  const Run odd("nlvib_jenkins", range);
+  Settings with_even = range;
+  with_even.emplace_back("system.even_harmonics=true");
+  const Run even("nlvib_jenkins", with_even);
+  REQUIRE(odd.traced.size() == 1);
+  REQUIRE(even.traced.size() == 1);
+  CAPTURE(even.traced[0].branch.explanation);
+  REQUIRE(odd.traced[0].branch.complete());
+  REQUIRE(even.traced[0].branch.complete());
+  const auto eta = [](const BranchPoint& point) { return point.parameters(0); };
+  // a further slip begins there, forwards and backwards
+  const auto slips = points(odd.traced[0], PointType::event);
+  const auto leaving = points(even.traced[0], PointType::branch_point);
+  REQUIRE(slips.size() == 1);
+  REQUIRE(leaving.size() == 2);
+  CHECK_THAT(eta(leaving[0]), WithinRel(eta(slips[0]), 1e-10));
+  CHECK(points(odd.traced[0], PointType::branch_point).empty());
+  for (const PointType type : {PointType::fold, PointType::trough, PointType::end}) {
+    const auto expected = points(odd.traced[0], type), found = points(even.traced[0], type);
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      CHECK_THAT(eta(found[i]), WithinRel(eta(expected[i]), 1e-10));
+      CHECK_THAT(value(even.traced[0], found[i], "Y"),
+                 WithinRel(value(odd.traced[0], expected[i], "Y"), 1e-7));
+    }
+  }
 }

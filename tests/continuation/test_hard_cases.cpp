@@ -96,6 +96,33 @@ TEST_CASE("A fold that lies 1e-8 before a corner, or would lie 1e-8 behind it, i
   }
 }
 
+TEST_CASE("A corner that another branch leaves is passed, and found as a branch point", "[corner]") {
+  // v - 2 v for |v| < p - 1/2, v -+ (2 p - 1) beyond: besides v = 0 there are |v| = 2 p - 1 from the corner
+  // on.
+  const auto wide = [](const Vector& p) { return std::max(p(0) - 0.5, 0.0); };
+  const ScalarProblem bent(
+      {"p"}, [=](double v, const Vector& p) { return v - 2 * std::clamp(v, -wide(p), wide(p)); },
+      [=](double v, const Vector& p) { return std::abs(v) < wide(p) ? -1.0 : 1.0; },
+      {[=](double v, const Vector& p) {
+        return wide(p) == 0 || std::abs(v) < wide(p) ? 0.0 : v > 0 ? -2.0 : 2.0;
+      }});
+  for (const double max_step : {0.01, 0.03, 0.1, 0.3}) {
+    for (const double from : {0.0, 0.0123, 0.31}) {
+      for (const bool backwards : {false, true}) {
+        CAPTURE(max_step, from, backwards);
+        TraceOptions options = backwards ? over("p", 1, from) : over("p", from, 1);
+        options.max_step = max_step;
+        const Branch branch = trace(bent, {vector_of({0}), vector_of({options.from})}, options);
+        CAPTURE(branch.explanation);
+        CHECK(branch.stop == Stop::reached_end);
+        const auto found = of_type(branch, PointType::branch_point);
+        REQUIRE(found.size() == 1);
+        CHECK_THAT(found[0].parameters(0), WithinAbs(0.5, 1e-12));
+      }
+    }
+  }
+}
+
 TEST_CASE("A special point at the very end value is found, and the branch ends there") {
   SECTION("a fold") {
     const ScalarProblem problem = graph([](double x) { return 1 - x * x; }, [](double x) { return -2 * x; });

@@ -24,8 +24,13 @@ class CrossingSearch {
   bool may_find(bool pairs) const;
 
   /// Looks for the first branch point in the step, whose end has been linearised last. False where none
-  /// explains a change of sign, or where it cannot be told: then the step has to be shorter.
-  [[nodiscard]] bool search();
+  /// explains a change of sign, or where it cannot be told: then the step has to be shorter, as well as where
+  /// the determinant `may_leap` and does so.
+  [[nodiscard]] bool search(bool may_leap);
+
+  /// The same of a step on which only a corner is unlike a curve: whether the determinant jumps there to its
+  /// other sign, as it does where branches of other symmetry leave a corner that this one passes.
+  [[nodiscard]] bool jumps();
 
   /// Whether a start, along the step's normal and linearised last, is a branch point: a little way off the
   /// determinant is much larger. `max_step` is the largest step.

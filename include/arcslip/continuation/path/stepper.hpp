@@ -19,9 +19,11 @@ class Stepper {
  public:
   /// `tracked` are the observables whose extrema are looked for; a step is kept only if it resolves them.
   /// Without `pairs` no two branch points are looked for that one step may pass; `rough_extrema` are not
-  /// located within it.
+  /// located within it. Where F `may_bend`, continuous at corners, the determinant may jump to its other
+  /// sign.
   Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step,
-          bool pairs = true, const Tolerances& tolerances = {}, bool rough_extrema = false);
+          bool pairs = true, const Tolerances& tolerances = {}, bool rough_extrema = false,
+          bool may_bend = true);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
@@ -132,6 +134,7 @@ class Stepper {
   double max_step_;
   bool pairs_;
   bool rough_extrema_;  // of branch points are looked for
+  bool may_bend_;
   StepLimits limits_;
   Step step_;
   Monitors monitors_;
