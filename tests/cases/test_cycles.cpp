@@ -319,11 +319,11 @@ stop_at = [10, 100, 1000]
 TEST_CASE("Mistakes in what is asked of cycles are told with their place", "[cycles]") {
   const std::string text = mathieu + "[cycles]\ndegree = 5\n";
   const std::vector<Mistake> mistakes = {
-      {"degree = 5", "degree = 8", ":19:10: ", "cycles.degree: ", "integer >= 2 and <= 7", "got 8"},
-      {"degree = 5", "intervals = 3", ":19:13: ", "cycles.intervals: ", "integer >= 4", "got 3"},
-      {"degree = 5", "tolerance = 0", ":19:13: ", "cycles.tolerance: ", "number > 0", "got 0"},
-      {"degree = 5", "settle = -1", ":19:10: ", "cycles.settle: ", "number > 0", "got -1"},
-      {"degree = 5", "order = 5", ":19:9: ", "cycles", "order", ""},
+      {"degree = 5", "degree = 8", ":17:10: ", "cycles.degree: ", "integer >= 2 and <= 7", "got 8"},
+      {"degree = 5", "intervals = 3", ":17:13: ", "cycles.intervals: ", "integer >= 4", "got 3"},
+      {"degree = 5", "tolerance = 0", ":17:13: ", "cycles.tolerance: ", "number > 0", "got 0"},
+      {"degree = 5", "settle = -1", ":17:10: ", "cycles.settle: ", "number > 0", "got -1"},
+      {"degree = 5", "order = 5", ":17:9: ", "cycles", "order", ""},
       {"period = \"pi\"", "", ":2:1: ", "model.period: ", "expected a formula", "missing"},
       {"kind = \"forced\"", "kind = \"flow\"", ":4:10: ", "model.period: ", "only of kind = \"forced\"", ""}};
   for (const Mistake& mistake : mistakes) case_texts::check_refused(text, mistake);
