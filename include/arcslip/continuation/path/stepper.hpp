@@ -125,6 +125,7 @@ class Stepper {
   void set_condition(Hold hold);
   void predict();
   [[nodiscard]] bool finish(bool lands, double value);
+  [[nodiscard]] bool knows_crossings(bool corner);
   bool ends_singular() const;
   void set_bend(bool is_corner);
 
