@@ -91,15 +91,20 @@ ComplexVector CycleProblem::multipliers_by(const Vector& u, const Vector& p, con
 /// number of decades. Of changes that are the same all along, of one unknown at a time, equations of
 /// collocation have this alone.
 double CycleProblem::growth_of_areas(const OrbitFrame& frame, const SparseMatrix& jacobian) const {
-  const Index n = field().size();
-  const Index m = degree();
+  constexpr int n = 2;
+  const Vector& weights = frame.mesh.rule().weights();
+  const int* const rows = jacobian.innerIndexPtr();
+  const auto end = static_cast<int>(n * nodes());
   double sum = 0;
-  for (Index r = 0; r < n; ++r) {
-    Vector change = Vector::Zero(jacobian.cols());
-    for (Index node = 0; node < nodes(); ++node) change(node * n + r) = 1;
-    const Vector left = jacobian * change;
-    for (Index point = 0; point < intervals() * m; ++point)
-      sum -= frame.mesh.rule().weights()(point % m) * left((point + 1) * n + r) / frame.in_units(r);
+  for (int column = 0; column < end; ++column) {
+    double all = 0;
+    Index point = 0;  // of an interval: a node between two has the points of both
+    for (int k = jacobian.outerIndexPtr()[column]; k < jacobian.outerIndexPtr()[column + 1]; ++k) {
+      if (rows[k] < n || rows[k] >= end || (rows[k] - column) % n != 0) continue;
+      all += weights(point) * jacobian.valuePtr()[k];
+      point = point + 1 < weights.size() ? point + 1 : 0;
+    }
+    sum -= all / frame.in_units(column % n);
   }
   return sum;
 }

@@ -66,16 +66,20 @@ void CrossingSearch::rescale(double max_step) {
   }
 }
 
+/// By the determinant over what grows as it does from end to end: by decades, that of a large system.
 bool CrossingSearch::may_find(bool pairs) const {
   if (step_.there.orientation * step_.here.orientation <= 0) return true;
   if (!pairs) return false;
-  std::array<double, 2 + most_past> places{step_.chord.norm(), 0};
-  std::array<double, 2 + most_past> values{std::exp(step_.there.log_determinant - step_.here.log_determinant),
-                                           1};
+  const double log_here = step_.here.log_determinant;
+  const double length = step_.chord.norm();
+  const double growth = (step_.there.log_determinant - log_here) / length;
+  std::array<double, 2 + most_past> places{length, 0};
+  std::array<double, 2 + most_past> values{1, 1};
   std::size_t count = 2;
   for (const PastPoint& past : step_.past) {
     places[count] = -past.behind;
-    values[count++] = past.sign * step_.here.orientation * std::exp(past.log - step_.here.log_determinant);
+    values[count++] =
+        past.sign * step_.here.orientation * std::exp(past.log - log_here + growth * past.behind);
   }
   return may_vanish_twice({places.data(), count}, {values.data(), count});
 }
