@@ -287,7 +287,7 @@ void Corrector::close(CurvePoint& point, const CurvePoint& origin, const Vector&
     length = solve();
     if (!(length < shrinks * last)) break;
   }
-  if (length <= shrinks * first) return;
+  if (length <= shrinks * first && point.residual <= tolerance_) return;
   point.unknowns = before_;
   solve();
 }
