@@ -66,15 +66,17 @@ void CrossingSearch::rescale(double max_step) {
   }
 }
 
-/// By the determinant over what grows as it does from end to end: by decades, that of a large system.
-bool CrossingSearch::may_find(bool pairs) const {
+/// By the determinant over what grows as it does from end to end: by decades, that of a large system. That of
+/// conditions on special points, which have corners where what is extended has none, is taken as it is.
+bool CrossingSearch::may_find(bool pairs, bool may_leap) const {
   if (step_.there.orientation * step_.here.orientation <= 0) return true;
   if (!pairs) return false;
   const double log_here = step_.here.log_determinant;
   const double length = step_.chord.norm();
-  const double growth = (step_.there.log_determinant - log_here) / length;
+  const double change = step_.there.log_determinant - log_here;
+  const double growth = may_leap ? change / length : 0;
   std::array<double, 2 + most_past> places{length, 0};
-  std::array<double, 2 + most_past> values{1, 1};
+  std::array<double, 2 + most_past> values{std::exp(change - growth * length), 1};
   std::size_t count = 2;
   for (const PastPoint& past : step_.past) {
     places[count] = -past.behind;

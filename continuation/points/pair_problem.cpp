@@ -82,7 +82,7 @@ bool PairProblem::solve_space() const {
   solver_->corner().setZero();
   Vector solution(2 * n + 4);
   double last = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < most; ++k) {
+  for (corrections_ = 1; corrections_ <= most; ++corrections_) {
     fill(*solver_, pair_, both);
     solver_->columns().setZero();
     solver_->rows().setZero();
@@ -162,7 +162,11 @@ void PairProblem::each_border(const std::function<void(double*, Index)>& use) {
   use(&second_.memory(), 1);
 }
 
+/// Where another pair is near corrections come to this one from its close neighbourhood alone, well before
+/// the frame is far from it.
 double PairProblem::strain() const {
+  constexpr int many = 5;
+  if (corrections_ > many) return std::numeric_limits<double>::infinity();
   const double turned_by = (pair_ - start_).norm() / start_.norm();
   return space_.norm() / frame_.norm() * (1 + turned_by);
 }

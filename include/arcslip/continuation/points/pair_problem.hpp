@@ -73,9 +73,10 @@ class PairProblem : public ExtendedProblem {
   double size_ = 1;                         // of the matrices, as of z
   double slope_ = 1;                        // of the conditions
   mutable SecondDerivative second_;
-  mutable Matrix space_;     // V in units of the scale
-  mutable Pair pair_;        // L
-  mutable Vector found_at_;  // the unknowns and parameters where these are
+  mutable Matrix space_;         // V in units of the scale
+  mutable Pair pair_;            // L
+  mutable Vector found_at_;      // the unknowns and parameters where these are
+  mutable int corrections_ = 0;  // that finding them took
 };
 
 }  // namespace arcslip::continuation
