@@ -1,5 +1,7 @@
 // What comes out of a case does not hang on the length of its steps, nor on how far it goes.
 
+#include <set>
+
 #include "case_runs.hpp"
 #include "cycle_cases.hpp"
 #include "small_structures.hpp"
@@ -8,6 +10,7 @@ namespace {
 
 using namespace arcslip;
 using namespace arcslip::testing;
+using continuation::Branch;
 
 std::string with_steps(double longest) { return fmt::format("[continuation]\nmax_step = {}\n", longest); }
 
