@@ -31,6 +31,17 @@ std::optional<Known> known_by(StepSearch& step, std::size_t which, double end, b
   return std::nullopt;
 }
 
+/// Where a test is known again that has no value where the step begins, as at a point where its terms have
+/// poles.
+std::optional<Known> known_beyond(StepSearch& step, std::size_t which) {
+  for (const double way : {1e-3, 1e-2, 1e-1}) {
+    const double s = way * step.upper();
+    const std::optional<double> value = step.readings.value(which, s);
+    if (value && std::isfinite(*value) && *value != 0) return Known{s, *value};
+  }
+  return std::nullopt;
+}
+
 /// Of as many factors as there are multipliers, of which two may vanish at once, as symmetries have it.
 bool is_product(PointType type) {
   return type == PointType::period_doubling || type == PointType::symmetry_breaking;
@@ -59,12 +70,18 @@ Zero multiple_zero(StepSearch& step, std::size_t which, const Zero& found) {
 void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
   const auto index = static_cast<Index>(i);
   const std::size_t which = step.readings.function(index);
-  if (!std::isfinite(step.watch.kept().front().functions[i])) return;  // no zero is told
   const bool is_determinant = step.watch.type(i) == PointType::branch_point;
   const std::optional<Known> known = known_by(step, which, step.functions_at_end[i], is_determinant);
   if (!known) return;
   const auto [to, after] = *known;
-  const int before = step.signs.functions[i];
+  Known begin{0, static_cast<double>(step.signs.functions[i])};
+  if (!std::isfinite(step.watch.kept().front().functions[i])) {
+    if (is_determinant || step.watch.type(i) == PointType::event) return;  // no zero is told
+    const std::optional<Known> beyond = known_beyond(step, which);
+    if (!beyond) return;
+    begin = *beyond;
+  }
+  const int before = sign_of(begin.value);
   // A determinant that is rounding as a branch begins, where symmetries are lost, tells nothing.
   if (before == 0 && is_determinant) return;
   const bool changes = before != 0 && before != sign_of(after);
@@ -83,7 +100,7 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
     ZeroOptions options{.jumps_count = false, .left_over = is_determinant ? 1e-8 : ZeroOptions{}.left_over};
     if (is_product(step.watch.type(i))) options.least_touched = 0;
     ZeroSearch zeros(step.stepper, step.readings, options);
-    Zero zero = zeros.first(which, before, 0, to, step.tolerances.located);
+    Zero zero = zeros.first(which, before, begin.s, to, step.tolerances.located);
     if (is_product(step.watch.type(i)) && zero.state == Zero::State::found)
       zero = multiple_zero(step, which, zero);
     step.note(kind, step.watch.type(i), index, zero);

@@ -1,5 +1,5 @@
-// Curves in two parameters of Hopf points on which another pair of eigenvalues comes near the one that is on
-// the axis, in closed form.
+// Curves in two parameters on which special points lie close to each other, or another pair of eigenvalues
+// comes near the one that is on the axis, in closed form.
 
 #include "cycle_cases.hpp"
 
@@ -30,7 +30,92 @@ from = -1
 to = 1
 )case";
 
+// z -> (1 + p) e^(i th) z + (th - thc) e^(i th) z |z|^2: a Neimark-Sacker point at p = 0 with the coefficient
+// th
+// - thc, which is not defined at the resonance th = 2 pi/3.
+const std::string resonant_map = R"case(
+[model]
+kind = "map"
+[model.parameters]
+p = -0.5
+th = 1.9
+thc = 2
+[model.definitions]
+X = "cos(th)*x - sin(th)*y"
+Y = "sin(th)*x + cos(th)*y"
+c = "(th - thc)*(x^2 + y^2)"
+[model.equations]
+x = "(1 + p)*X + c*X"
+y = "(1 + p)*Y + c*Y"
+[branch]
+curve = "neimark_sacker"
+parameters = ["p", "th"]
+window = [-0.5, 0.5]
+from = 1.5
+to = 2.9
+)case";
+
+// The period doubling's coefficient vanishes at q = del, where y has a multiplier 1 at q = 0.
+const std::string doublings_beside_one = R"case(
+[model]
+kind = "map"
+[model.parameters]
+p = -0.5
+q = 0.5
+del = 0.02
+[model.equations]
+x = "-(1 + p)*x + (q - del)*x^3"
+y = "(1 + q)*y + y^3"
+[branch]
+curve = "period_doubling"
+parameters = ["p", "q"]
+window = [-0.5, 0.5]
+from = -1
+to = 1
+)case";
+
+// A Hopf point at p = 0 whose coefficient vanishes at q = del; another pair of the same frequency is on the
+// axis at q = 0.
+const std::string equal_frequencies = R"case(
+[model.parameters]
+p = -0.5
+q = 0.5
+del = 0.02
+[model.equations]
+x = "p*x - y + (q - del)*x*(x^2 + y^2)"
+y = "x + p*y + (q - del)*y*(x^2 + y^2)"
+z = "q*z - w - z^3"
+w = "z + q*w"
+[branch]
+curve = "hopf"
+parameters = ["p", "q"]
+window = [-0.5, 0.5]
+from = -1
+to = 1
+)case";
+
+/// That a curve tells one point of this type, at this value.
+void check_one(const std::string& system, const std::string& set, PointType type,
+               const std::string& parameter, double expected) {
+  for (const std::string step : {"0.3", "0.1", "0.03"}) {
+    INFO(set << ", step " << step);
+    const auto all = traced_of(system, {"model.parameters." + set, "continuation.max_step=" + step});
+    REQUIRE(!all.empty());
+    check_values(values_at(all.front(), type, parameter), {expected}, 1e-7);
+  }
+}
+
 }  // namespace
+
+TEST_CASE("Coefficients that vanish right behind a special point are told", "[cycles]") {
+  for (const double aside : {-0.1, -0.003, 0.0005, 0.02, 0.1}) {
+    const double third = 2 * std::acos(-1.0) / 3;
+    check_one(resonant_map, fmt::format("thc={}", third + aside), PointType::chenciner, "th", third + aside);
+    const std::string del = fmt::format("del={}", aside);
+    check_one(doublings_beside_one, del, PointType::generalized_period_doubling, "q", aside);
+    check_one(equal_frequencies, del, PointType::generalized_hopf, "q", aside);
+  }
+}
 
 TEST_CASE("Curves of Hopf points pass where another pair is near", "[cycles]") {
   constexpr double a = 0.05;
