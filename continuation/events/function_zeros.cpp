@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 
 #include "arcslip/continuation/events/remote_zero.hpp"
@@ -16,30 +17,26 @@ struct Known {
   double value;
 };
 
+/// At the first of these places, in parts of the way up to which events are looked for, at which a function
+/// has a value with a sign.
+std::optional<Known> first_known(StepSearch& step, std::size_t which, std::initializer_list<double> parts) {
+  for (const double part : parts) {
+    const double s = part * step.upper();
+    const std::optional<double> value = step.readings.value(which, s);
+    if (value && *value != 0) return Known{s, *value};
+  }
+  return std::nullopt;
+}
+
 /// As far as a function is known that has a value where the step begins: to its end, or to its first event. A
 /// determinant that has no value at either is rounding before; others are read a little before an event where
 /// they have no value or no sign, as it may be where a curve ends or where their terms have poles.
 std::optional<Known> known_by(StepSearch& step, std::size_t which, double end, bool is_determinant) {
   if ((step.is_whole() || is_determinant) && !std::isfinite(end)) return std::nullopt;
   if (step.is_whole()) return Known{step.upper(), end};
-  for (const double left : {0.0, 1e-3, 1e-2, 1e-1}) {
-    const double s = (1 - left) * step.upper();
-    const std::optional<double> value = step.readings.value(which, s);
-    if (value && (*value != 0 || is_determinant)) return Known{s, *value};
-    if (is_determinant) break;
-  }
-  return std::nullopt;
-}
-
-/// Where a test is known again that has no value where the step begins, as at a point where its terms have
-/// poles.
-std::optional<Known> known_beyond(StepSearch& step, std::size_t which) {
-  for (const double way : {1e-3, 1e-2, 1e-1}) {
-    const double s = way * step.upper();
-    const std::optional<double> value = step.readings.value(which, s);
-    if (value && std::isfinite(*value) && *value != 0) return Known{s, *value};
-  }
-  return std::nullopt;
+  if (!is_determinant) return first_known(step, which, {1, 1 - 1e-3, 1 - 1e-2, 1 - 1e-1});
+  const std::optional<double> value = step.readings.value(which, step.upper());
+  return value ? std::optional(Known{step.upper(), *value}) : std::nullopt;
 }
 
 /// Of as many factors as there are multipliers, of which two may vanish at once, as symmetries have it.
@@ -71,17 +68,19 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
   const auto index = static_cast<Index>(i);
   const std::size_t which = step.readings.function(index);
   const bool is_determinant = step.watch.type(i) == PointType::branch_point;
+  const bool begins = std::isfinite(step.watch.kept().front().functions[i]);
+  if (!begins && (is_determinant || step.watch.type(i) == PointType::event)) return;  // no zero is told
   const std::optional<Known> known = known_by(step, which, step.functions_at_end[i], is_determinant);
   if (!known) return;
   const auto [to, after] = *known;
-  Known begin{0, static_cast<double>(step.signs.functions[i])};
-  if (!std::isfinite(step.watch.kept().front().functions[i])) {
-    if (is_determinant || step.watch.type(i) == PointType::event) return;  // no zero is told
-    const std::optional<Known> beyond = known_beyond(step, which);
+  int before = step.signs.functions[i];
+  double from = 0;
+  if (!begins) {  // as at a point where a test's terms have poles
+    const std::optional<Known> beyond = first_known(step, which, {1e-3, 1e-2, 1e-1});
     if (!beyond) return;
-    begin = *beyond;
+    before = sign_of(beyond->value);
+    from = beyond->s;
   }
-  const int before = sign_of(begin.value);
   // A determinant that is rounding as a branch begins, where symmetries are lost, tells nothing.
   if (before == 0 && is_determinant) return;
   const bool changes = before != 0 && before != sign_of(after);
@@ -100,7 +99,7 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
     ZeroOptions options{.jumps_count = false, .left_over = is_determinant ? 1e-8 : ZeroOptions{}.left_over};
     if (is_product(step.watch.type(i))) options.least_touched = 0;
     ZeroSearch zeros(step.stepper, step.readings, options);
-    Zero zero = zeros.first(which, before, begin.s, to, step.tolerances.located);
+    Zero zero = zeros.first(which, before, from, to, step.tolerances.located);
     if (is_product(step.watch.type(i)) && zero.state == Zero::State::found)
       zero = multiple_zero(step, which, zero);
     step.note(kind, step.watch.type(i), index, zero);
