@@ -1,12 +1,21 @@
 // Curves in two parameters on which special points lie close to each other, or another pair of eigenvalues
 // comes near the one that is on the axis, in closed form.
 
+#include <fmt/format.h>
+
 #include "cycle_cases.hpp"
 
 namespace {
 
 using namespace arcslip;
 using namespace arcslip::testing;
+
+/// A curve over p, from -p to p, and a second parameter.
+std::string curve_over(const std::string& type, const std::string& second, double p, double from, double to) {
+  return fmt::format(
+      "[branch]\ncurve = \"{}\"\nparameters = [\"p\", \"{}\"]\nwindow = [{}, {}]\nfrom = {}\nto = {}\n", type,
+      second, -p, p, from, to);
+}
 
 // Of x + i y and z + i w: eigenvalues i omega where p = a k/(a^2 + d^2), omega = 1 + k d/(a^2 + d^2) with k =
 // 0.04 and d = q - (omega - 1). The other pair is 2 a - that one about, a little beside the axis.
@@ -22,17 +31,10 @@ x = "p*x - y + h*z - x*(x^2 + y^2)"
 y = "x + p*y + h*w - y*(x^2 + y^2)"
 z = "a*z - (1 + q)*w + g*x"
 w = "(1 + q)*z + a*w + g*y"
-[branch]
-curve = "hopf"
-parameters = ["p", "q"]
-window = [-1, 1]
-from = -1
-to = 1
-)case";
+)case" + curve_over("hopf", "q", 1, -1, 1);
 
-// z -> (1 + p) e^(i th) z + (th - thc) e^(i th) z |z|^2: a Neimark-Sacker point at p = 0 with the coefficient
-// th
-// - thc, which is not defined at the resonance th = 2 pi/3.
+// z -> (1 + p + (th - thc) |z|^2) e^(i th) z: a Neimark-Sacker point at p = 0, with the coefficient th - thc
+// but at the resonance th = 2 pi/3, where it is not defined.
 const std::string resonant_map = R"case(
 [model]
 kind = "map"
@@ -47,13 +49,7 @@ c = "(th - thc)*(x^2 + y^2)"
 [model.equations]
 x = "(1 + p)*X + c*X"
 y = "(1 + p)*Y + c*Y"
-[branch]
-curve = "neimark_sacker"
-parameters = ["p", "th"]
-window = [-0.5, 0.5]
-from = 1.5
-to = 2.9
-)case";
+)case" + curve_over("neimark_sacker", "th", 0.5, 1.5, 2.9);
 
 // The period doubling's coefficient vanishes at q = del, where y has a multiplier 1 at q = 0.
 const std::string doublings_beside_one = R"case(
@@ -66,13 +62,7 @@ del = 0.02
 [model.equations]
 x = "-(1 + p)*x + (q - del)*x^3"
 y = "(1 + q)*y + y^3"
-[branch]
-curve = "period_doubling"
-parameters = ["p", "q"]
-window = [-0.5, 0.5]
-from = -1
-to = 1
-)case";
+)case" + curve_over("period_doubling", "q", 0.5, -1, 1);
 
 // A Hopf point at p = 0 whose coefficient vanishes at q = del; another pair of the same frequency is on the
 // axis at q = 0.
@@ -86,13 +76,7 @@ x = "p*x - y + (q - del)*x*(x^2 + y^2)"
 y = "x + p*y + (q - del)*y*(x^2 + y^2)"
 z = "q*z - w - z^3"
 w = "z + q*w"
-[branch]
-curve = "hopf"
-parameters = ["p", "q"]
-window = [-0.5, 0.5]
-from = -1
-to = 1
-)case";
+)case" + curve_over("hopf", "q", 0.5, -1, 1);
 
 /// That a curve tells one point of this type, at this value.
 void check_one(const std::string& system, const std::string& set, PointType type,
@@ -108,8 +92,8 @@ void check_one(const std::string& system, const std::string& set, PointType type
 }  // namespace
 
 TEST_CASE("Coefficients that vanish right behind a special point are told", "[cycles]") {
+  constexpr double third = 2 * pi / 3;
   for (const double aside : {-0.1, -0.003, 0.0005, 0.02, 0.1}) {
-    const double third = 2 * std::acos(-1.0) / 3;
     check_one(resonant_map, fmt::format("thc={}", third + aside), PointType::chenciner, "th", third + aside);
     const std::string del = fmt::format("del={}", aside);
     check_one(doublings_beside_one, del, PointType::generalized_period_doubling, "q", aside);
