@@ -36,20 +36,34 @@ void require_departures(const OrbitProblem& problem, const Branch& branch, const
   }
 }
 
+/// Whether two branch points may lie near a point: of orbits at rest, where nothing bends and steps grow
+/// beyond what lies between two, and of those with a multiplier near 1.
+bool may_meet_two(const OrbitProblem& problem, const BranchPoint& point) {
+  constexpr double near = 2;  // of ln(mu)
+  if (problem.field().sparse()) return false;
+  if (problem.may_rest()) {
+    const Matrix orbit = problem.orbit(point.unknowns);
+    return orbit.rowwise().maxCoeff() == orbit.rowwise().minCoeff();
+  }
+  const ComplexVector logs = problem.log_multipliers(point.unknowns, point.parameters, point.regime);
+  return (logs.array().abs() < near).any();
+}
+
 /// One way; `begin` traces up to where the observer says no. Of a branch that leaves a branch point, which
 /// cannot be corrected on the meshes that follow, the mark of this tells where it comes back.
 template <class Begin>
 Branch one_way(const OrbitProblem& problem, TraceOptions options, const OrbitOptions& orbits,
                const Observer& observer, const std::optional<OrbitMark>& left, const Begin& begin) {
   options.journal = nullptr;  // which has no meshes: the same work is done anew
-  // Frames, which are no pieces, do not change the determinant.
-  if (!options.branch_point_pairs) options.branch_point_pairs = !problem.field().sparse();
+  const bool is_told_of_pairs = options.branch_point_pairs.has_value();
+  if (!is_told_of_pairs) options.branch_point_pairs = false;
   end_with_kind(problem, options);
   MeshWatch meshes(problem, orbits);
   GrowthWatch growth(problem, options.parameter, orbits.tolerance);
   bool worn = false;
   bool told = false;
   bool grows = false;
+  bool turns = false;  // to look for pairs of branch points, or no longer to
   bool closes = false;
   const TimeBudget time(options);
   const Observer watching = [&](const BranchPoint& point) {
@@ -57,13 +71,15 @@ Branch one_way(const OrbitProblem& problem, TraceOptions options, const OrbitOpt
     worn = !meshes.serves(point);
     grows =
         !growth.goes_on({point.unknowns, point.parameters, point.regime, {}}, point.type == PointType::fold);
+    turns = !is_told_of_pairs && may_meet_two(problem, point) != *options.branch_point_pairs;
     closes = left && point.type == PointType::branch_point &&
              is_same(*left, mark_of(problem, point, index_of(problem.parameter_names(), options.parameter)));
-    return !told && !worn && !grows && !closes;
+    return !told && !worn && !grows && !turns && !closes;
   };
   Branch branch = begin(options, watching);
-  while (branch.stop == Stop::interrupted && std::exchange(worn, false) && !told && !grows && !closes) {
-    if (!meshes.renew(branch, options)) {
+  while (branch.stop == Stop::interrupted && (worn || turns) && !told && !grows && !closes) {
+    if (std::exchange(turns, false)) options.branch_point_pairs = !*options.branch_point_pairs;
+    if (std::exchange(worn, false) && !meshes.renew(branch, options)) {
       meshes.give_up(branch, options.parameter);
       return branch;
     }

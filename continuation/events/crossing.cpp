@@ -66,29 +66,18 @@ void CrossingSearch::rescale(double max_step) {
   }
 }
 
-/// By the determinant over what grows as it does from end to end and over what grows as it did in the step
-/// before: by decades, that of a large system. That of conditions on special points, which have corners where
-/// what is extended has none, is taken as it is.
-bool CrossingSearch::may_find(bool pairs, bool may_leap) const {
+bool CrossingSearch::may_find(bool pairs) const {
   if (step_.there.orientation * step_.here.orientation <= 0) return true;
-  if (!pairs || step_.past.empty()) return pairs;
-  const double log_here = step_.here.log_determinant;
-  const double length = step_.chord.norm();
-  const double change = step_.there.log_determinant - log_here;
-  const PastPoint& last = step_.past.front();
-  const auto may_vanish_beside = [&](double growth) {
-    std::array<double, 2 + most_past> places{length, 0};
-    std::array<double, 2 + most_past> values{std::exp(change - growth * length), 1};
-    std::size_t count = 2;
-    for (const PastPoint& past : step_.past) {
-      places[count] = -past.behind;
-      values[count++] =
-          past.sign * step_.here.orientation * std::exp(past.log - log_here + growth * past.behind);
-    }
-    return may_vanish_twice({places.data(), count}, {values.data(), count});
-  };
-  if (!may_leap) return may_vanish_beside(0);
-  return may_vanish_beside(change / length) || may_vanish_beside((log_here - last.log) / last.behind);
+  if (!pairs) return false;
+  std::array<double, 2 + most_past> places{step_.chord.norm(), 0};
+  std::array<double, 2 + most_past> values{std::exp(step_.there.log_determinant - step_.here.log_determinant),
+                                           1};
+  std::size_t count = 2;
+  for (const PastPoint& past : step_.past) {
+    places[count] = -past.behind;
+    values[count++] = past.sign * step_.here.orientation * std::exp(past.log - step_.here.log_determinant);
+  }
+  return may_vanish_twice({places.data(), count}, {values.data(), count});
 }
 
 bool CrossingSearch::search(bool may_leap) {

@@ -286,8 +286,7 @@ bool Stepper::finish(bool lands, double value) {
 /// Whether the step has no branch points but those that are found in it, be they at a corner.
 bool Stepper::knows_crossings(bool corner) {
   const bool keeps_way = step_.there.orientation == step_.here.orientation;
-  if (is_regular() ? keeps_way : !crossings_.may_find(pairs_, may_bend_) || crossings_.search(may_bend_))
-    return true;
+  if (is_regular() ? keeps_way : !crossings_.may_find(pairs_) || crossings_.search(may_bend_)) return true;
   const bool may_leap = may_bend_ && !keeps_way && !corner && !is_regular();
   if (step_.is_tiny(step_.distance) && (keeps_way || (may_leap && crossings_.jumps())))
     return true;  // a corner

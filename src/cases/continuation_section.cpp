@@ -57,8 +57,8 @@ const KeyTable<continuation::TraceOptions>& continuation_keys() {
            [](S& options, const TomlSection& section) {
              options.branch_point_pairs = section.boolean("branch_point_pairs");
            },
-           otherwise("false with several contacts and more than 24 unknowns, and for cycles of discretised "
-                     "fields, else true")),
+           otherwise("false with several contacts and more than 24 unknowns, of cycles true where "
+                     "multipliers are near 1, else true")),
        K("max_points", &S::max_points, at_least(2, INT_MAX), "of a branch, at most"),
        K("max_branches", &S::max_branches, at_least(1, INT_MAX),
          "that are followed with `switching`, at most"),

@@ -20,8 +20,8 @@ class CrossingSearch {
   CrossingSearch(Corrector& corrector, Prober& prober, Step& step, const Tolerances& tolerances);
 
   /// Whether what is known of the determinant leaves room for branch points in the step; of two at once only
-  /// with `pairs`, and beside what grows evenly where the determinant `may_leap`, as `search` has it.
-  bool may_find(bool pairs, bool may_leap) const;
+  /// with `pairs`.
+  bool may_find(bool pairs) const;
 
   /// Looks for the first branch point in the step, whose end has been linearised last. False where none
   /// explains a change of sign, or where it cannot be told: then the step has to be shorter, as well as where
