@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <istream>
 #include <limits>
@@ -16,7 +17,7 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr std::string_view signature = "arcslip-checkpoint-";
-constexpr int newest = 5;  // of the versions of the text
+constexpr int newest = 6;  // of the versions of the text
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -181,6 +182,12 @@ void progress(Archive& archive, Way& way) {
     archive(past.log);
     archive(past.rate);
   });
+  if constexpr (Archive::reads) {
+    if (archive.version < 6) {  // those of cycles were told in other units
+      if (std::isfinite(way.here.log_determinant)) way.here.log_determinant = std::nan("");
+      way.past.clear();
+    }
+  }
   list(archive, way.looks, [&](auto& look) {
     archive(look.behind);
     list(archive, look.functions, number);

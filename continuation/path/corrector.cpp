@@ -25,7 +25,7 @@ Corrector::Corrector(const Problem& problem, Index parameter, const CorrectorOpt
       options_(options),
       tolerance_(options.tolerance),
       linearization_(problem),
-      takes_lengths_out_(problem.has_many_alike_rows()),
+      told_(problem.determinants()),
       solver_(linearization_.make_solver(1)),
       correction_(size_ + 1),
       direction_(size_ + 1),
@@ -90,8 +90,8 @@ bool Corrector::evaluate(CurvePoint& point) {
 bool Corrector::factor(const CurvePoint& point, const Vector& scale, const Vector& normal) {
   ++work_.factorizations;
   has_direction_ = false;
+  factored_scale_ = scale;
   if (linearization_.sparse()) {
-    factored_scale_ = scale;
     factored_unknowns_ = point.unknowns;
     factored_regime_ = point.regime;
     factored_when_ = work_.evaluations;
@@ -339,9 +339,6 @@ void Corrector::set_tangent(CurvePoint& point, const CurvePoint& origin) {
   point.tangent /= length;
   point.orientation = border_sign_;
   LogProduct size = determinant(point.scale);
-  if (&point != &origin) {
-    for (Index i = 0; i <= size_; ++i) size *= point.scale(i) / origin.scale(i);
-  }
   size *= length;
   point.log_determinant = size.log();
 }
@@ -351,12 +348,13 @@ double Corrector::log_determinant() const {
   return determinant(factored_scale_).log();
 }
 
-/// Where a parameter multiplies many equations of a large system at once, as a length or a time does, the
-/// product of the rows' lengths runs through hundreds of decades: it is taken out, but for nearly full rows.
+/// Of the matrix in a scale, the lengths of all but nearly full rows taken out if they are to be.
 LogProduct Corrector::determinant(const Vector& scale) const {
   LogProduct size;
   solver_->multiply_determinant(size);
-  if (!takes_lengths_out_) return size;
+  const bool own = told_ == Determinants::in_own_units;
+  for (Index i = 0; i <= size_; ++i) size *= (own ? 1 : scale(i)) / factored_scale_(i);
+  if (told_ != Determinants::over_rows) return size;
   const SparseMatrix& jacobian = linearization_.sparse_jacobian();
   squares_ = (linearization_.parameter_jacobian().col(parameter_) * scale(size_)).cwiseAbs2();
   counts_.setZero(size_);

@@ -210,7 +210,7 @@ TEST_CASE("Regimes of the second version of checkpoints are bits") {
     for (std::size_t at = 0; (at = old.find(now, at)) != std::string::npos; at += then.size())
       old.replace(at, now.size(), then);
   };
-  replace("arcslip-checkpoint-5", "arcslip-checkpoint-2");
+  replace("arcslip-checkpoint-6", "arcslip-checkpoint-2");
   replace("\n0\nnan\n0x0p+0\n0\nno_start\n", "\nno_start\n");
   replace("3\nstates 0\nstates 1\nstates 01\n", "4\nstates 0\nstates 1\nstates 01\nstates 11\n");
   REQUIRE(digits(guess.regime).size() == 2);

@@ -140,7 +140,9 @@ class OrbitProblem : public Problem {
   Index size() const override { return field_->size() * nodes() + (has_duration_ ? 1 : 0); }
   std::vector<std::string> parameter_names() const override { return field_->parameter_names(); }
   bool sparse() const override { return !is_trigonometric(); }
-  bool has_many_alike_rows() const override { return field_->sparse(); }
+  Determinants determinants() const override {
+    return field_->sparse() ? Determinants::over_rows : Determinants::in_own_units;
+  }
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
                               const Evaluation& out) const override;
   [[nodiscard]] bool second(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,

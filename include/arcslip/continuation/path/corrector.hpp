@@ -25,7 +25,8 @@ struct CurvePoint {
   Vector scale;    ///< n + 1, of z at this point; that of u times sqrt(n), so that norms do not grow with n
   Vector tangent;  ///< n + 1, unit length, dz/ds in units of `scale`
   double orientation = 0;  ///< sign of det [J F_p; tangent^T], which changes at branch points alone
-  /// The logarithm of its size, in units of `scale`: -infinity at a branch point, nan where it is not known.
+  /// The logarithm of its size, as `Problem::determinants` has it: -infinity at a branch point, nan where it
+  /// is not known.
   double log_determinant = std::numeric_limits<double>::quiet_NaN();
   double residual = 0;  ///< largest entry of F
   int iterations = 0;   ///< Newton corrections spent on it
@@ -130,8 +131,8 @@ class Corrector {
   /// Whether the bordered Jacobian last factored is singular but for rounding.
   bool nearly_singular();
 
-  /// Sign of det [J F_p; normal^T] as last factored, in units of the origin's scale, and the logarithm of its
-  /// size, of a sparse equilibrium over the lengths of its rows.
+  /// Sign of det [J F_p; normal^T] as last factored, and the logarithm of its size, as
+  /// `Problem::determinants` has it, in the scale of the origin where it is told in one.
   double orientation() const { return border_sign_; }
   double log_determinant() const;
 
@@ -163,7 +164,7 @@ class Corrector {
   double residual_size_ = 1;
   double tolerance_;  // on the largest entry of F
   Linearization linearization_;
-  bool takes_lengths_out_;  // of rows, from determinants
+  Determinants told_;
   std::unique_ptr<BorderedSolver> solver_;
   Work work_;
   double contraction_ = 0;

@@ -72,6 +72,10 @@ class ExtendedProblem : public Problem {
   Index size() const override { return base_.size() + conditions_; }
   std::vector<std::string> parameter_names() const override;
   bool sparse() const override { return base_.sparse(); }
+  Determinants determinants() const override {
+    const bool own = base_.determinants() == Determinants::in_own_units;
+    return own ? Determinants::in_own_units : Determinants::in_scale;
+  }
   long revision() const override { return revision_; }
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
                               const Evaluation& out) const override;

@@ -27,6 +27,14 @@ struct Evaluation {
   CondensedJacobian* condensed_jacobian = nullptr;  ///< what the problem has made, in place of `jacobian`
 };
 
+/// What determinants of a problem's Jacobian are told in, so that they change little beside what vanishes: of
+/// many unknowns each factor counts as often as there are these.
+enum class Determinants {
+  in_scale,      ///< the unknowns in their scale at each point: of rows that grow with these
+  in_own_units,  ///< the unknowns as they are: of rows that do not
+  over_rows      ///< over the lengths of rows: where a parameter multiplies many equations at once
+};
+
 /// A scalar function of (u, p) with its exact gradient.
 struct Gradient {
   Vector unknowns;    ///< n
@@ -118,9 +126,10 @@ class Problem {
   /// of them that cross the imaginary axis are Hopf points.
   virtual bool is_equilibrium() const { return false; }
 
-  /// Whether determinants are told without the lengths of rows, whose product runs through hundreds of
-  /// decades where a parameter multiplies many equations at once.
-  virtual bool has_many_alike_rows() const { return sparse() && is_equilibrium(); }
+  /// By what determinants are compared along a branch.
+  virtual Determinants determinants() const {
+    return sparse() && is_equilibrium() ? Determinants::over_rows : Determinants::in_scale;
+  }
 
   /// Whether F(u, p) + u is a map of which the solutions are fixed points. One that is not sparse has by this
   /// alone its stability, its special points and their curves.
