@@ -8,7 +8,6 @@
 #include "arcslip/continuation/cycles/doubling_problem.hpp"
 #include "arcslip/continuation/cycles/floquet.hpp"
 #include "arcslip/continuation/cycles/multiplier_form.hpp"
-#include "arcslip/continuation/linear/borders.hpp"
 
 namespace arcslip::continuation {
 
@@ -59,11 +58,34 @@ Vector TorusProblem::turned(const Vector& x) const {
   return result;
 }
 
-/// ln z / T, as `exponents` has it.
-Complex TorusProblem::eigenvalue(const BasePoint& point) const {
-  const double kappa = point.extras(0);
-  const Complex log = std::abs(kappa) < 1 ? Complex(0, std::acos(kappa)) : std::acosh(std::abs(kappa));
-  return orbits_ == nullptr ? log : log / orbits_->period(point.unknowns, point.parameters);
+namespace {
+
+/// ln z.
+Complex log_of_pair(double kappa) {
+  const double size = std::abs(kappa) < 1 ? 0 : std::acosh(std::abs(kappa));
+  return {size, std::acos(std::clamp(kappa, -1.0, 1.0))};
+}
+
+}  // namespace
+
+/// ln mu of the multipliers but for the pair; none where they are not known.
+std::optional<ComplexVector> TorusProblem::other_logs(const BasePoint& point) const {
+  const bool is_known = orbits_ != nullptr || at_.evaluate(point.unknowns, point.parameters, point.regime);
+  ComplexVector logs = is_known ? log_multipliers(base(), at_, point) : ComplexVector();
+  if (logs.size() < 2) return std::nullopt;
+  const Complex own = log_of_pair(point.extras(0));
+  remove_multiplier(logs, own);
+  remove_multiplier(logs, -own);
+  return logs;
+}
+
+bool TorusProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                               ComplexVector& values) const {
+  const BasePoint point = split(u, p, regime);
+  const std::optional<ComplexVector> others = other_logs(point);
+  if (!others) return false;
+  values = exponents(*others, orbits_ == nullptr ? 1 : orbits_->period(point.unknowns, point.parameters));
+  return values.allFinite();
 }
 
 void TorusProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
@@ -76,13 +98,10 @@ void TorusProblem::test(const Vector& u, const Vector& p, const Regime& regime, 
   const auto form = multiplier_form(base(), PointType::neimark_sacker,
                                     {point.unknowns, point.parameters, regime, {}}, std::acos(kappa));
   if (form) values(4) = form->relative();  // jumps where terms have poles
-  const bool is_known = orbits_ != nullptr || at_.evaluate(point.unknowns, point.parameters, regime);
-  ComplexVector others = is_known ? log_multipliers(base(), at_, point) : ComplexVector();
-  if (others.size() <= 2) return;
-  remove_nearest(others, Complex(0, std::acos(kappa)));
-  remove_nearest(others, Complex(0, -std::acos(kappa)));
-  values(5) = fold_test(others);
-  values(6) = doubling_test(others);
+  const std::optional<ComplexVector> others = other_logs(point);
+  if (!others || others->size() == 0) return;
+  values(5) = fold_test(*others);
+  values(6) = doubling_test(*others);
 }
 
 std::vector<Observable> TorusProblem::observables() const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "arcslip/continuation/linear/borders.hpp"
 #include "arcslip/continuation/points/hopf_form.hpp"
 
 namespace arcslip::continuation {
@@ -54,6 +55,16 @@ void HopfProblem::observe(const Vector& u, const Vector& p, const Regime& regime
   ExtendedProblem::observe(u, p, regime, of_base);
   values.resize(of_base.size() + 1);
   values << of_base, std::sqrt(std::max(0.0, u(u.size() - 1)));
+}
+
+bool HopfProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                              ComplexVector& values) const {
+  const BasePoint point = split(u, p, regime);
+  if (!base().eigenvalues(point.unknowns, point.parameters, regime, values)) return false;
+  const Complex own = std::sqrt(Complex(-point.extras(0)));
+  remove_nearest(values, own);
+  remove_nearest(values, -own);
+  return true;
 }
 
 void HopfProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {

@@ -205,14 +205,4 @@ bool PairProblem::conditions(const BasePoint& point, Vector& values, Matrix* gra
   return true;
 }
 
-bool PairProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
-                              ComplexVector& values) const {
-  const BasePoint point = split(u, p, regime);
-  if (!base().eigenvalues(point.unknowns, point.parameters, regime, values)) return false;
-  const Complex own = eigenvalue(point);
-  remove_nearest(values, own);
-  remove_nearest(values, -own);
-  return true;
-}
-
 }  // namespace arcslip::continuation

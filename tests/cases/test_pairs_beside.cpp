@@ -129,3 +129,45 @@ TEST_CASE("Curves of Hopf points pass where another pair is near", "[cycles]") {
     }
   }
 }
+
+TEST_CASE("Where two multipliers meet at -1 no pair of others is told", "[cycles]") {
+  // In turned coordinates, where rounding parts them by its root; the third one stays where it is.
+  for (const char* third : {"-0.75", "-0.4", "0.3", "0.6", "0.85"}) {
+    for (const char* step : {"0.1", "0.03"}) {
+      CAPTURE(third, step);
+      const auto all = traced_of(fmt::format(R"case(
+[model]
+kind = "map"
+[model.parameters]
+trace = -1.5
+det = 0.5
+[model.definitions]
+p = "0.28*y + 0.96*z"
+a = "0.8*x + 0.6*p"
+b = "0.8*p - 0.6*x"
+c = "0.28*z - 0.96*y"
+next_a = "b - 0.1*a^3"
+next_b = "trace*b - det*a"
+next_c = "{}*c + 0.5*a - 0.3*b"
+next_p = "0.6*next_a + 0.8*next_b"
+[model.equations]
+x = "0.8*next_a - 0.6*next_b"
+y = "0.28*next_p - 0.96*next_c"
+z = "0.96*next_p + 0.28*next_c"
+[branch]
+curve = "period_doubling"
+parameters = ["trace", "det"]
+window = [-2.6, -1.2]
+from = 0.3
+to = 1.5
+[continuation]
+max_step = {}
+)case",
+                                             third, step));
+      REQUIRE(all.size() == 1);
+      CHECK(all[0].branch.complete());
+      CHECK(count(all[0], PointType::flip_neimark_sacker) == 0);
+      check_values(values_at(all[0], PointType::resonance_1_2, "trace"), {-2}, 1e-9);
+    }
+  }
+}

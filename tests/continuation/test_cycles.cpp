@@ -1,9 +1,6 @@
 #include "arcslip/continuation/cycles/cycle_branch.hpp"
 
-#include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "arcslip/continuation/curves/curve.hpp"
 #include "arcslip/continuation/cycles/floquet.hpp"
@@ -157,12 +154,8 @@ TEST_CASE("Cycles leave a Hopf point as large in any unit of time", "[cycles]") 
   }
 }
 
-TEST_CASE("Points of short steps take little more than one factorisation each", "[cycles]") {
-  const OrbitMesh mesh(CollocationRule(4), 30);
-  const CycleStart start = cycle_from_orbit(std::make_shared<EquilibriumField>(van_der_pol()), mesh,
-                                            circle(mesh, 2, -2), 6.6, Vector::Constant(1, 1));
-  TraceOptions options = over("mu", 0.5, 2);
-  options.max_step = 0.001;
+/// 60 points of a branch from an orbit, each of little more than one factorisation and all that a point has.
+void check_cost(const CycleStart& start, TraceOptions options) {
   options.max_points = 60;
   const CycleBranch all = trace_cycles(start, options, {});
   const Branch& branch = all.branch;
@@ -179,6 +172,21 @@ TEST_CASE("Points of short steps take little more than one factorisation each", 
     REQUIRE(point.eigenvalues.size() == anew.size());
     CHECK((point.eigenvalues - anew).cwiseAbs().maxCoeff() < 1e-8);
   }
+}
+
+TEST_CASE("Points of short steps take little more than one factorisation each", "[cycles]") {
+  const OrbitMesh mesh(CollocationRule(4), 30);
+  TraceOptions options = over("mu", 0.5, 2);
+  options.max_step = 0.001;
+  check_cost(cycle_from_orbit(std::make_shared<EquilibriumField>(van_der_pol()), mesh, circle(mesh, 2, -2),
+                              6.6, Vector::Constant(1, 1)),
+             options);
+  // The scale of all 242 unknowns grows with the orbit, and no two branch points are near for all that.
+  options = over("mu", 0.1, 2);
+  options.max_step = 0.01;
+  check_cost(cycle_from_orbit(std::make_shared<EquilibriumField>(hopf_normal_form()), mesh,
+                              circle(mesh, 2, std::sqrt(0.2)), two_pi / 1.2, Vector::Constant(1, 0.2)),
+             options);
 }
 
 TEST_CASE("What factors have left of intervals tells what these make of changes", "[cycles]") {
@@ -217,72 +225,6 @@ TEST_CASE("Collocation converges at twice its degree at the ends of intervals", 
     INFO("degree " << degree << ", errors " << coarse << " and " << fine);
     CHECK(std::abs(std::log2(coarse / fine) - 2 * degree) < 0.35);
   }
-}
-
-TEST_CASE("Multipliers keep their digits over forty decades", "[cycles]") {
-  const Index n = 5;
-  const int factors = 12;
-  const ComplexVector wanted =
-      (ComplexVector(5) << Complex(46, 0), Complex(3, 1), Complex(3, -1), Complex(-2, pi), Complex(-46, 0))
-          .finished();
-  // each factor is S_(j+1) D S_j^-1 with D a twelfth of the exponents
-  Matrix step = Matrix::Zero(n, n);
-  step(0, 0) = std::exp(46.0 / factors);
-  const double size = std::exp(3.0 / factors);
-  step.block<2, 2>(1, 1) << size * std::cos(1.0 / factors), size * std::sin(1.0 / factors),
-      -size * std::sin(1.0 / factors), size * std::cos(1.0 / factors);
-  step(3, 3) = std::exp(-2.0 / factors);
-  step(4, 4) = std::exp(-46.0 / factors);
-  std::vector<Matrix> product;
-  std::vector<Matrix> frames;
-  for (int j = 0; j < factors; ++j) {
-    Matrix frame = Matrix::Identity(n, n);
-    for (Index i = 0; i < n; ++i) {
-      for (Index k = 0; k < n; ++k) frame(i, k) += 0.2 * std::sin(1.0 + i + 2.3 * k + 1.7 * j);
-    }
-    frames.push_back(frame);
-  }
-  for (int j = 0; j < factors; ++j) {
-    Matrix here = step;
-    if (j == 0) here.row(3) *= -1;  // the fourth turns round once
-    const Matrix& before = frames[static_cast<std::size_t>(j)];
-    const Matrix& after = frames[static_cast<std::size_t>((j + 1) % factors)];
-    product.emplace_back(after * here * before.inverse());
-  }
-  const ComplexVector found = log_multipliers(product);
-  REQUIRE(found.size() == n);
-  for (const Complex& log : wanted) {
-    const double nearest = (found.array() - log).abs().minCoeff();
-    INFO(log);
-    CHECK(nearest < 1e-10);
-  }
-}
-
-TEST_CASE("Equal multipliers hide no smaller ones", "[cycles]") {
-  const Index n = 7;
-  const int factors = 40;
-  const Vector wanted = (Vector(n) << -4.8, -66.8, -66.8, -70.8, -70.8, -97.5, -102.9).finished();
-  // each factor is S_(j+1) D_j S_j^-1, where equal ones grow and shrink alike on their way
-  const auto frame = [&](int j) {
-    Matrix result = Matrix::Identity(n, n);
-    for (Index i = 0; i < n; ++i) {
-      for (Index k = 0; k < n; ++k)
-        result(i, k) += 0.2 * std::sin(1.0 + i + 2.3 * k + 1.7 * (j % factors)) / (1 + k);
-    }
-    return result;
-  };
-  std::vector<Matrix> product;
-  for (int j = 0; j < factors; ++j) {
-    Vector rates = wanted / factors;
-    for (Index k = 0; k < n; ++k) rates(k) += std::sin(2 * pi * j / factors + std::ceil(0.5 * k));
-    product.emplace_back(frame(j + 1) * rates.array().exp().matrix().asDiagonal() * frame(j).inverse());
-  }
-  const ComplexVector found = log_multipliers(product);
-  REQUIRE(found.size() == n);
-  std::vector<double> logs;
-  for (const Complex& log : found) logs.push_back(log.real());
-  std::sort(logs.begin(), logs.end(), std::greater<>());
-  for (Index k = 0; k < n; ++k) CHECK_THAT(logs[static_cast<std::size_t>(k)], WithinAbs(wanted(k), 1e-10));
 }
 
 TEST_CASE("Derivatives of cycles and of their special points are exact", "[cycles]") {

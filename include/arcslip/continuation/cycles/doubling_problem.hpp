@@ -22,11 +22,16 @@ class DoublingProblem : public SingularProblem {
   }
   PointType pair_crossing() const override { return PointType::flip_neimark_sacker; }
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
+  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                                 ComplexVector& values) const override;
 
  protected:
   void fill(BorderedSolver& solver, double shift) const override;
 
  private:
+  /// ln mu of all multipliers; empty where they are not known.
+  ComplexVector logs(const BasePoint& point) const;
+
   const PeriodicOrbit* orbits_;  // null of a map
 };
 

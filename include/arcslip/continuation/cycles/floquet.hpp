@@ -32,6 +32,10 @@ ComplexVector largest_log_multipliers(const SparseMatrix& jacobian, Index n, Ind
 /// = 1.
 ComplexVector exponents(const ComplexVector& logs, double duration);
 
+/// Takes the multiplier that is nearest to e^`log` out of the list. Next to a second real one rounding may
+/// have made a pair of the two: then the other one is by the product of both.
+void remove_multiplier(ComplexVector& logs, Complex log);
+
 /// prod (1 + mu), each factor over 1 + |mu|: 0 at period doublings.
 double doubling_test(const ComplexVector& log_multipliers);
 

@@ -2,6 +2,8 @@
 
 // Neimark-Sacker points of cycles, from which tori leave, as an extended problem.
 
+#include <optional>
+
 #include "arcslip/continuation/cycles/periodic_orbit.hpp"
 #include "arcslip/continuation/points/pair_problem.hpp"
 
@@ -31,19 +33,23 @@ class TorusProblem : public PairProblem {
             PointType::flip_neimark_sacker};
   }
   PointType pair_crossing() const override { return PointType::double_neimark_sacker; }
+  /// Of the base but for the pair.
+  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                                 ComplexVector& values) const override;
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
   /// `angle`: theta, as far as the torus turns with each round.
   std::vector<Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
 
  protected:
-  Complex eigenvalue(const BasePoint& point) const override;
   ByKappa sum(double kappa) const override { return {2 * kappa, 2}; }
   ByKappa product(double /*kappa*/) const override { return {1, 0}; }
   void fill(BorderedSolver& solver, const Pair& pair, const Vector& scales) const override;
   Vector turned(const Vector& x) const override;
 
  private:
+  std::optional<ComplexVector> other_logs(const BasePoint& point) const;
+
   const PeriodicOrbit* orbits_;  // null of a map
 };
 

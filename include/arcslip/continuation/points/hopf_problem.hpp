@@ -26,9 +26,11 @@ class HopfProblem : public PairProblem {
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
   PointType pair_crossing() const override { return PointType::hopf_hopf; }
   PointType real_crossing() const override { return PointType::zero_hopf; }
+  /// Of the base but for the pair.
+  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                                 ComplexVector& values) const override;
 
  protected:
-  Complex eigenvalue(const BasePoint& point) const override { return std::sqrt(Complex(-point.extras(0))); }
   ByKappa sum(double /*kappa*/) const override { return {0, 0}; }
   ByKappa product(double kappa) const override { return {kappa, 1}; }
   void fill(BorderedSolver& solver, const Pair& pair, const Vector& scales) const override;

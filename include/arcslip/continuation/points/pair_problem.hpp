@@ -19,10 +19,6 @@ class PairProblem : public ExtendedProblem {
  public:
   [[nodiscard]] bool adapt(const BasePoint& point) override;
 
-  /// Of the base but for the pair.
-  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
-                                 ComplexVector& values) const override;
-
  protected:
   using Pair = Eigen::Matrix2d;
 
@@ -34,9 +30,6 @@ class PairProblem : public ExtendedProblem {
 
   /// `active` becomes an unknown. The base is kept by reference.
   PairProblem(const Problem& base, Index active);
-
-  /// The one of the pair among the base's eigenvalues; the other is its negative.
-  virtual Complex eigenvalue(const BasePoint& point) const = 0;
 
   virtual ByKappa sum(double kappa) const = 0;      ///< a, of both z
   virtual ByKappa product(double kappa) const = 0;  ///< b
