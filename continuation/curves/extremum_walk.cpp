@@ -8,6 +8,7 @@
 
 #include "arcslip/continuation/curves/extremum_tracer.hpp"
 #include "arcslip/continuation/curves/response_extremum.hpp"
+#include "arcslip/continuation/linear/borders.hpp"
 
 namespace arcslip::continuation {
 
@@ -129,6 +130,20 @@ bool ExtremumTracer::has_turned_here() const {
   return false;
 }
 
+/// Whether the last rows are peaks, as the last one tells next to which there are not both, as there are
+/// beside a corner where a peak and a trough vanish together.
+std::optional<bool> ExtremumTracer::were_peaks(ResponseExtremum& extrema) const {
+  constexpr std::size_t most = 20;  // rows
+  const double beside = options_.tolerances.beside_extremum;
+  for (std::size_t i = curve_.points.size(); i-- > 0 && i + most >= curve_.points.size();) {
+    const BasePoint at = split(curve_.points[i]);
+    if (!extrema.begin(at)) return std::nullopt;
+    const bool as_peak = extrema.next_to(at, true, beside).has_value();
+    if (as_peak != extrema.next_to(at, false, beside).has_value()) return as_peak;
+  }
+  return std::nullopt;
+}
+
 /// The extremum that the last rows belong to, as the last row. These may lie a little beside it, or where it
 /// has vanished, as the conditions of an extremum are steep next to corners.
 std::optional<BasePoint> ExtremumTracer::begin_walk(ResponseExtremum& extrema, bool& peak) {
@@ -146,7 +161,8 @@ std::optional<BasePoint> ExtremumTracer::begin_walk(ResponseExtremum& extrema, b
     if (back > 0) curve_.points.pop_back();
     const auto as_peak = nearest(true);
     const auto as_trough = nearest(false);
-    peak = as_peak && (!as_trough || std::abs(as_peak->way) <= std::abs(as_trough->way));
+    peak = as_peak &&
+           (!as_trough || were_peaks(extrema).value_or(std::abs(as_peak->way) <= std::abs(as_trough->way)));
     found = peak ? as_peak : as_trough;
   }
   if (!found || std::abs(found->way) <= same) return found ? std::optional(found->at) : std::nullopt;
@@ -163,6 +179,18 @@ std::optional<BasePoint> ExtremumTracer::begin_walk(ResponseExtremum& extrema, b
 
 namespace {
 constexpr double first_step = 1e-9;  // of the parameter, in its scale
+}
+
+/// Whether the slope vanishes at an extremum, and not only at another one that is nearby as long as little
+/// has been walked from where they were one: the conditions measure the way to that.
+bool ExtremumTracer::is_smooth(const Walk& walk, double scale) {
+  constexpr double aside = 1e-3;  // of the way walked
+  const double walked = std::abs(value(walk.here) - walk.turned) / scale;
+  Vector residual(problem_.size());
+  const Guess at = guess_at(walk.here);
+  return problem_.adapt(walk.here) &&
+         problem_.evaluate(at.unknowns, at.parameters, at.regime, {.residual = &residual}) &&
+         residual.lpNorm<Eigen::Infinity>() < std::fmin(aside * walked, options_.tolerances.beside_extremum);
 }
 
 /// The row of a response's extremum at a value of the parameter, and what the next one is predicted by.
@@ -184,7 +212,12 @@ void ExtremumTracer::stride(Walk& walk, const ResponseExtremum::Found& next, dou
 /// it does not.
 bool ExtremumTracer::fold_back(Walk& walk, ResponseExtremum& extrema) {
   constexpr double far = 1e-5;  // on the response, in the scale: to the other one of a pair that vanishes
-  const auto other = extrema.next_to(walk.here, !walk.peak, far);
+  constexpr int most = 10;      // rows on which rounding hides it
+  auto other = extrema.next_to(walk.here, !walk.peak, far);
+  for (int back = 0; back < std::min(most, walk.walked) && !other && curve_.points.size() > 1; ++back) {
+    curve_.points.pop_back();
+    other = extrema.next_to(split(curve_.points.back()), !walk.peak, far);
+  }
   if (!other || ++walk.flips > 1) {
     stop(Stop::min_step,
          fmt::format("the extremum is lost on a corner that no border tells of, at {}", place()));
@@ -210,7 +243,9 @@ bool ExtremumTracer::fold_back(Walk& walk, ResponseExtremum& extrema) {
 /// root of the way from there.
 double ExtremumTracer::reach_at(const Walk& walk, double to, double scale) const {
   constexpr double beside = 1e-6;  // in the scale of the parameter
-  const double steady = 100 * std::abs(to - value(walk.here)) / scale;
+  const BranchPoint& last = curve_.points.back();
+  const double fast = steps(padded(walk.rate, problem_.size() + 1), last).norm() * scale;
+  const double steady = (100 + fast) * std::abs(to - value(walk.here)) / scale;
   const double from_turn = std::abs(to - walk.turned) / scale;
   return from_turn < beside ? std::max(steady, std::sqrt(from_turn)) : steady;
 }
@@ -226,6 +261,9 @@ bool ExtremumTracer::walk() {
   walk.sense = way_so_far(scale);
   walk.step = first_step;
   walk.rate = Vector::Zero(problem_.size());
+  const Vector& tangent = curve_.points.back().tangent;
+  if (tangent(problem_.size()) * walk.sense > 0)
+    walk.rate = tangent.head(problem_.size()) / tangent(problem_.size());
   while (std::ssize(curve_.points) < options_.max_points) {
     if (!time_.goes_on()) {
       stop(time_.is_spent() ? Stop::time_limit : Stop::interrupted, "left at " + place());
@@ -248,7 +286,7 @@ bool ExtremumTracer::walk() {
       // Along the direction of a response left behind Newton's method goes ever less far.
       walk.predicts = extrema.begin(walk.here);
       if (told_to_end_) return false;
-      if (next->corner || walk.walked < patience_) continue;
+      if (next->corner || walk.walked < patience_ || !is_smooth(walk, scale)) continue;
       patience_ *= 2;
       if (smoothly_on(walk.here, walk.sense)) return true;
       continue;

@@ -5,6 +5,7 @@
 #include "arcslip/continuation/curves/curve.hpp"
 #include "branches.hpp"
 #include "catch.hpp"
+#include "level_set.hpp"
 #include "scalar_problem.hpp"
 #include "unfinished_work.hpp"
 
@@ -259,6 +260,40 @@ TEST_CASE("Where a peak vanishes on a corner that no border tells of its curve g
   const HiddenEdge problem(1, 0);
   const Branch curve = curve_of(problem, PointType::peak, 1.5, over("q", -3, 2));
   check_turns_back(curve);
+}
+
+TEST_CASE("A peak becomes a trough of the other part of a response where both parts meet") {
+  // With y = u - 2: p^2 + p y/10 - y^2 = q, for q < 0 one part above and one below, for q > 0 one on each
+  // side. The extrema p = -y/20, q = -1.0025 y^2 are those of the part below, then above.
+  const ScalarProblem problem = level_set(
+      [](const Place& z) { return z(1) * z(1) + 0.1 * z(1) * (z(0) - 2) - (z(0) - 2) * (z(0) - 2) - z(2); },
+      [](const Place& z) { return Place(0.1 * z(1) - 2 * (z(0) - 2), 2 * z(1) + 0.1 * (z(0) - 2), -1); });
+  for (const double step : {0.01, 0.05, 0.1, 0.2}) {
+    CAPTURE(step);
+    TraceOptions options = over("p", -1, 1);
+    options.extrema_of = {"u"};
+    const Branch response = trace(problem, start(0.5, -1, -1), options);
+    const auto peaks = of_type(response, PointType::peak);
+    REQUIRE(peaks.size() == 1);
+    const CurveStart begin = curve_through(problem, "p", peaks[0], "u");
+    TraceOptions along = over("q", -1.5, 1);
+    along.max_step = step;
+    const Branch curve = trace_curve(*begin.problem, begin.point, along);
+    INFO(curve.explanation);
+    REQUIRE(curve.complete());
+    CHECK(curve.points.front().parameters(0) == -1.5);
+    CHECK(curve.points.back().parameters(0) == -1.5);
+    const auto folds = of_type(curve, PointType::fold);
+    REQUIRE(folds.size() == 1);
+    CHECK_THAT(folds[0].parameters(0), WithinAbs(0, 1e-10));
+    CHECK(of_type(curve, PointType::branch_point).empty());
+    CHECK((curve.points.front().unknowns(0) - 2) * (curve.points.back().unknowns(0) - 2) < 0);
+    for (const BranchPoint& point : curve.points) {
+      const double y = point.unknowns(0) - 2;
+      CHECK_THAT(point.unknowns(1), WithinAbs(-0.05 * y, 1e-8));
+      CHECK_THAT(point.parameters(0), WithinAbs(-1.0025 * y * y, 1e-8));
+    }
+  }
 }
 
 TEST_CASE("A curve of peaks goes on in the midst of its pieces", "[resume]") {

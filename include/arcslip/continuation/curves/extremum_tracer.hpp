@@ -122,9 +122,11 @@ class ExtremumTracer {
     double turned = std::numeric_limits<double>::quiet_NaN();  // the parameter where it last went back
   };
   bool walk();
+  bool is_smooth(const Walk& walk, double scale);
   void stride(Walk& walk, const ResponseExtremum::Found& next, double to);
   double reach_at(const Walk& walk, double to, double scale) const;
   bool fold_back(Walk& walk, ResponseExtremum& extrema);
+  std::optional<bool> were_peaks(ResponseExtremum& extrema) const;
   std::optional<BasePoint> begin_walk(ResponseExtremum& extrema, bool& peak);
   bool smoothly_on(const BasePoint& here, double sense);
   bool has_turned_here() const;
