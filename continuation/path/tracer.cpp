@@ -316,10 +316,11 @@ void Tracer::cross(int border, bool several) {
     return stop(Stop::grazing_border,
                 fmt::format("the branch beyond the border does not leave it, at {}", place()));
   }
+  const std::vector<double> sizes = watch_.sizes();
   watch_.look(stepper_.here());
   watch_.begin();
   store(PointType::regime_switch, {}, arrival);
-  corner_events(before);
+  corner_events(before, sizes);
   stop_in_place();
   // Beyond the corner the parameter is to change as fast as before it, however steep the new piece is. The
   // last step may have been one of rounding, on the way to a value.
@@ -334,17 +335,20 @@ bool Tracer::turn_back() {
   const Signs before = state_.signs;
   const std::size_t stored = branch_.points.size();
   if (!stepper_.turn_back()) return false;
+  const std::vector<double> sizes = watch_.sizes();
   watch_.look(stepper_.here());
   watch_.begin();
-  corner_events(before);
+  corner_events(before, sizes);
   if (branch_.points.size() == stored) store(PointType::regular);
   state_.distance = first_step * options_.max_step / stepper_.slope_length(state_.hold);
   return true;
 }
 
-/// Extrema and folds that are corners: a derivative jumps from one sign to the other.
-void Tracer::corner_events(const Signs& before) {
+/// Extrema and folds that are corners: a derivative jumps from one sign to the other; and what vanishes
+/// there, of functions that came from these sizes.
+void Tracer::corner_events(const Signs& before, const std::vector<double>& sizes) {
   state_.signs = signs_at_start(stepper_, watch_);
+  user_events_on_corner(before, sizes);
   if (before.parameter * state_.signs.parameter < 0) store(PointType::corner_fold);
   for (std::size_t i = 0; i < state_.signs.observables.size(); ++i) {
     if (before.observables[i] * state_.signs.observables[i] >= 0) continue;

@@ -33,6 +33,25 @@ Vector arrival_at_corner(Stepper& stepper, Corrector& corrector, double last_cho
 
 }  // namespace
 
+/// A zero but for rounding is one of neither piece, or of both: it is told once, and behind it the sign is
+/// that of what follows.
+void Tracer::user_events_on_corner(const Signs& before, const std::vector<double>& sizes) {
+  constexpr double rounding = 1e-14;  // of what the function comes from
+  const auto is_told = [&](const std::string& label) {
+    for (auto row = branch_.points.rbegin(); row != branch_.points.rend(); ++row) {
+      if (row->arclength != state_.arclength) return false;
+      if (row->type == PointType::event && row->label == label) return true;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i < watch_.searched(); ++i) {
+    const bool vanishes = std::abs(watch_.functions()[i]) <= rounding * sizes[i];
+    if (watch_.type(i) != PointType::event || watch_.piece_of(i) || !vanishes) continue;
+    state_.signs.functions[i] = 0;
+    if (before.functions[i] != 0 && !is_told(watch_.label(i))) store(PointType::event, watch_.label(i));
+  }
+}
+
 /// Whether a point all but has symmetries that it has not.
 bool Tracer::meets(const CurvePoint& point) const {
   constexpr double near = 0.02;  // in the scale: steps are longer

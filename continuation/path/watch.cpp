@@ -87,6 +87,15 @@ void Watch::begin() {
   keep(0);
 }
 
+std::vector<double> Watch::sizes() const {
+  std::vector<double> result(functions_.size(), 0);
+  for (const Look& look : kept_) {
+    for (std::size_t i = 0; i < look.functions.size(); ++i)
+      result[i] = std::max(result[i], std::abs(look.functions[i]));
+  }
+  return result;
+}
+
 bool Watch::may_vanish(std::vector<double> Look::*values, std::size_t index, double distance,
                        double value) const {
   std::array<double, 2 + most_past> places{distance};

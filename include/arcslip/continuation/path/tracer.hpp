@@ -77,7 +77,8 @@ class Tracer {
   bool turn_back();
   bool on_several_borders() const;
   Correction leave(int border, bool several);
-  void corner_events(const Signs& before);
+  void corner_events(const Signs& before, const std::vector<double>& sizes);
+  void user_events_on_corner(const Signs& before, const std::vector<double>& sizes);
   bool passes_target(const CurvePoint& point, double tolerance) const;
   double value() const { return stepper_.here().parameters(parameter_); }
   double parameter_scale() const { return stepper_.here().scale(stepper_.here().scale.size() - 1); }

@@ -59,6 +59,9 @@ class Watch {
   void keep(double chord);
   void begin();
 
+  /// The largest size of each function at the points that are kept.
+  std::vector<double> sizes() const;
+
   /// What is kept, of this point first.
   const std::vector<Look>& kept() const { return kept_; }
   void restore(std::vector<Look> looks) { kept_ = std::move(looks); }
