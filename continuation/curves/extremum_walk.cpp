@@ -184,7 +184,7 @@ constexpr double first_step = 1e-9;  // of the parameter, in its scale
 /// Whether the slope vanishes at an extremum, and not only at another one that is nearby as long as little
 /// has been walked from where they were one: the conditions measure the way to that.
 bool ExtremumTracer::is_smooth(const Walk& walk, double scale) {
-  constexpr double aside = 1e-3;  // of the way walked
+  constexpr double aside = 1e-3;  // of the way walked, nan where it has not turned
   const double walked = std::abs(value(walk.here) - walk.turned) / scale;
   Vector residual(problem_.size());
   const Guess at = guess_at(walk.here);

@@ -29,19 +29,13 @@ void DoublingProblem::fill(BorderedSolver& solver, double shift) const {
   solver.set_jacobian(twisted, scale_);
 }
 
-/// ln mu of all multipliers; empty where they are not known.
-ComplexVector DoublingProblem::logs(const BasePoint& point) const {
-  const bool is_known = orbits_ != nullptr || at_.evaluate(point.unknowns, point.parameters, point.regime);
-  return is_known ? log_multipliers(base(), at_, point) : ComplexVector();
-}
-
 bool DoublingProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
                                   ComplexVector& values) const {
   const BasePoint point = split(u, p, regime);
-  ComplexVector all = logs(point);
+  ComplexVector all = log_multipliers_anew(base(), at_, point);
   if (all.size() == 0) return false;
   remove_multiplier(all, Complex(0, pi));
-  values = exponents(all, orbits_ == nullptr ? 1 : orbits_->period(point.unknowns, point.parameters));
+  values = rates_of(base(), all, point);
   return values.allFinite();
 }
 
@@ -52,7 +46,7 @@ void DoublingProblem::test(const Vector& u, const Vector& p, const Regime& regim
       multiplier_form(base(), PointType::period_doubling, {point.unknowns, point.parameters, regime, {}});
   values.setConstant(3, std::nan(""));
   if (form) values(0) = form->relative();
-  const ComplexVector all = logs(point);
+  const ComplexVector all = log_multipliers_anew(base(), at_, point);
   values(1) = fold_test(all);
   values(2) = second_doubling_test(all);
 }

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "arcslip/continuation/linear/borders.hpp"
 #include "arcslip/continuation/linear/eigenvalues.hpp"
 
 namespace arcslip::continuation {
@@ -217,19 +218,11 @@ void remove_multiplier(ComplexVector& logs, Complex log) {
     value -= log;
     return Complex(value.real(), std::remainder(value.imag(), 2 * pi));
   };
-  const auto nearest_to = [&](Complex way) {
-    Index nearest = 0;
-    for (Index i = 1; i < logs.size(); ++i)
-      if (std::abs(from_log(logs(i)) - way) < std::abs(from_log(logs(nearest)) - way)) nearest = i;
-    return nearest;
-  };
-  const Index nearest = nearest_to(0);
-  const Complex off = from_log(logs(nearest));
-  std::swap(logs(nearest), logs(logs.size() - 1));
-  logs = ComplexVector(logs.head(logs.size() - 1));
-  const bool is_real = log.imag() == 0 || std::abs(log.imag()) == pi;
-  if (is_real && off.imag() != 0 && logs.size() > 0)
-    logs(nearest_to(std::conj(off))) = {log.real() + 2 * off.real(), std::abs(log.imag())};
+  if (log.imag() == 0 || std::abs(log.imag()) == pi) {
+    take_real(logs, from_log, {log.real(), std::abs(log.imag())});
+  } else {
+    take_nearest(logs, from_log);
+  }
 }
 
 namespace {

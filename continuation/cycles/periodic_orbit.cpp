@@ -82,6 +82,17 @@ ComplexVector log_multipliers(const Problem& problem, const Linearization& at, c
   return log_multipliers({at.jacobian() + Matrix::Identity(problem.size(), problem.size())});
 }
 
+ComplexVector log_multipliers_anew(const Problem& problem, Linearization& at, const BasePoint& point) {
+  const bool is_known = dynamic_cast<const PeriodicOrbit*>(&problem) != nullptr ||
+                        at.evaluate(point.unknowns, point.parameters, point.regime);
+  return is_known ? log_multipliers(problem, at, point) : ComplexVector();
+}
+
+ComplexVector rates_of(const Problem& problem, const ComplexVector& logs, const BasePoint& point) {
+  const auto* orbits = dynamic_cast<const PeriodicOrbit*>(&problem);
+  return exponents(logs, orbits == nullptr ? 1 : orbits->period(point.unknowns, point.parameters));
+}
+
 Index count_beside_duration(const Problem& problem) {
   const auto* orbits = dynamic_cast<const PeriodicOrbit*>(&problem);
   return problem.size() - (orbits != nullptr && orbits->has_duration() ? 1 : 0);

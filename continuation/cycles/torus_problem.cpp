@@ -70,8 +70,7 @@ Complex log_of_pair(double kappa) {
 
 /// ln mu of the multipliers but for the pair; none where they are not known.
 std::optional<ComplexVector> TorusProblem::other_logs(const BasePoint& point) const {
-  const bool is_known = orbits_ != nullptr || at_.evaluate(point.unknowns, point.parameters, point.regime);
-  ComplexVector logs = is_known ? log_multipliers(base(), at_, point) : ComplexVector();
+  ComplexVector logs = log_multipliers_anew(base(), at_, point);
   if (logs.size() < 2) return std::nullopt;
   const Complex own = log_of_pair(point.extras(0));
   remove_multiplier(logs, own);
@@ -84,7 +83,7 @@ bool TorusProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& r
   const BasePoint point = split(u, p, regime);
   const std::optional<ComplexVector> others = other_logs(point);
   if (!others) return false;
-  values = exponents(*others, orbits_ == nullptr ? 1 : orbits_->period(point.unknowns, point.parameters));
+  values = rates_of(base(), *others, point);
   return values.allFinite();
 }
 

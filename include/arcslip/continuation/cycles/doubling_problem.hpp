@@ -29,9 +29,6 @@ class DoublingProblem : public SingularProblem {
   void fill(BorderedSolver& solver, double shift) const override;
 
  private:
-  /// ln mu of all multipliers; empty where they are not known.
-  ComplexVector logs(const BasePoint& point) const;
-
   const PeriodicOrbit* orbits_;  // null of a map
 };
 

@@ -69,6 +69,10 @@ class PeriodicOrbit : public OrbitProblem {
 
 /// ln(mu) of a cycle or, by its derivatives `at` the point, of a map that is not sparse; else empty.
 ComplexVector log_multipliers(const Problem& problem, const Linearization& at, const BasePoint& point);
+/// The same where a map has not been evaluated at the point: `at` is.
+ComplexVector log_multipliers_anew(const Problem& problem, Linearization& at, const BasePoint& point);
+/// What Problem::eigenvalues has of these ln(mu): over T of a cycle.
+ComplexVector rates_of(const Problem& problem, const ComplexVector& logs, const BasePoint& point);
 
 /// How many unknowns an orbit has beside T; of another problem all.
 Index count_beside_duration(const Problem& problem);

@@ -38,25 +38,43 @@ inline double column_size(const Linearization& at, const Vector& scale) {
   return size > 1e-3 ? size : 1;
 }
 
-/// Takes the eigenvalue that is nearest to `away` out of the list.
-inline void remove_nearest(ComplexVector& values, Complex away) {
+/// Which of the values is nearest to a way off what is known, by the function that tells how far off each is.
+template <class Off>
+Index nearest_to(const ComplexVector& values, const Off& off, Complex way) {
   Index nearest = 0;
-  (values.array() - away).abs().minCoeff(&nearest);
-  std::swap(values(nearest), values(values.size() - 1));
-  values = ComplexVector(values.head(values.size() - 1));
+  for (Index i = 1; i < values.size(); ++i)
+    if (std::abs(off(values(i)) - way) < std::abs(off(values(nearest)) - way)) nearest = i;
+  return nearest;
 }
 
-/// Takes an eigenvalue out that is known to be zero. Next to a second one rounding may have made a pair of
-/// the two: then the other one is their sum, which is as exact as the trace.
-inline void remove_zero(ComplexVector& values) {
-  Index nearest = 0;
-  values.array().abs().minCoeff(&nearest);
-  const Complex zero = values(nearest);
+/// Takes the value that is the least off out of the list, and tells how far it is.
+template <class Off>
+Complex take_nearest(ComplexVector& values, const Off& off) {
+  const Index nearest = nearest_to(values, off, 0);
+  const Complex away = off(values(nearest));
   std::swap(values(nearest), values(values.size() - 1));
   values = ComplexVector(values.head(values.size() - 1));
-  if (zero.imag() == 0 || values.size() == 0) return;
-  (values.array() - std::conj(zero)).abs().minCoeff(&nearest);
-  values(nearest) = 2 * zero.real();
+  return away;
+}
+
+/// The same of one that is known to be `real`. Next to a second one rounding may have made a pair of the two:
+/// then the other one is their sum, which is as exact as the trace.
+template <class Off>
+void take_real(ComplexVector& values, const Off& off, Complex real) {
+  const Complex away = take_nearest(values, off);
+  if (away.imag() == 0 || values.size() == 0) return;
+  values(nearest_to(values, off, std::conj(away))) = real + 2 * away.real();
+}
+
+/// Takes the eigenvalue that is nearest to `away` out of the list.
+inline void remove_nearest(ComplexVector& values, Complex away) {
+  take_nearest(values, [=](Complex value) { return value - away; });
+}
+
+/// Takes an eigenvalue out that is known to be zero.
+inline void remove_zero(ComplexVector& values) {
+  take_real(
+      values, [](Complex value) { return value; }, 0);
 }
 
 }  // namespace arcslip::continuation
