@@ -123,6 +123,7 @@ class AlikeFactors final : public SparseFactors {
         targets_(blocks_, (height_ - pivots_) * outer_),
         batches_(static_cast<std::size_t>((blocks_ + lanes - 1) / lanes),
                  BlocksSideBySide(height_, pivots_ + outer_, pivots_, staying_)),
+        row_scales_(rows_.of(0).size(), std::ssize(batches_)),
         vectors_(height_ * lanes, std::ssize(batches_)),
         left_{batches_, blocks_, left_rows_, pivots_, Eigen::MatrixX<int>(outer_, blocks_)},
         behind_(outer_ * lanes),
@@ -134,7 +135,7 @@ class AlikeFactors final : public SparseFactors {
 
   bool is_made() const { return rest_factors_ != nullptr; }
 
-  double factor(SparseMatrix& matrix) override {
+  double factor(const SparseMatrix& matrix) override {
     const double* const values = matrix.valuePtr();
     double* const rest = rest_.valuePtr();
     rest_.coeffs().setZero();
@@ -143,9 +144,8 @@ class AlikeFactors final : public SparseFactors {
     growth_ = 0;
     for (Index b = 0; b < std::ssize(batches_); ++b) {
       BlocksSideBySide& batch = batches_[static_cast<std::size_t>(b)];
-      const auto sources = sources_.of(b);
-      double* const entries = batch.at(0, 0);
-      for (Index k = 0; k < sources.size(); ++k) entries[k] = sources(k) < 0 ? 0 : values[sources(k)];
+      take(values, batch, b);
+      if (!batch.scale_rows(row_scales_.col(b).data())) return 0;
       batch.eliminate();
       growth_ = std::max(growth_, batch.largest());
       for (Index lane = 0; lane < lanes_of(b); ++lane) sign *= batch.sign(lane);
@@ -159,6 +159,10 @@ class AlikeFactors final : public SparseFactors {
       for (Index k = 0; k < pivots_; ++k) {
         const double* const pivots = batches_[static_cast<std::size_t>(b)].at(k, k);
         for (Index lane = 0; lane < lanes_of(b); ++lane) product *= pivots[lane];
+      }
+      const double* scale = row_scales_.col(b).data();
+      for (Index i = 0; i < pivots_ + left_rows_; ++i, scale += lanes) {
+        for (Index lane = 0; lane < lanes_of(b); ++lane) product /= scale[lane];
       }
     }
     rest_factors_->multiply_determinant(product);
@@ -175,7 +179,8 @@ class AlikeFactors final : public SparseFactors {
     for (Index b = 0; b < std::ssize(batches_); ++b) {
       auto y = vectors_.col(b);
       const auto rows = rows_.of(b);
-      for (Index k = 0; k < rows.size(); ++k) y(k) = x(rows(k));
+      const auto scale = row_scales_.col(b);
+      for (Index k = 0; k < rows.size(); ++k) y(k) = x(rows(k)) * scale(k);
       y.tail(staying_ * lanes).setZero();
       batches_[static_cast<std::size_t>(b)].forward(y.data());
       for (Index lane = 0; lane < lanes_of(b); ++lane) {
@@ -223,7 +228,8 @@ class AlikeFactors final : public SparseFactors {
       }
       batches_[static_cast<std::size_t>(b)].back_transposed(y.data());
       const auto rows = rows_.of(b);
-      for (Index k = 0; k < rows.size(); ++k) x(rows(k)) = y(k);
+      const auto scale = row_scales_.col(b);
+      for (Index k = 0; k < rows.size(); ++k) x(rows(k)) = y(k) * scale(k);
     }
   }
 
@@ -323,6 +329,17 @@ class AlikeFactors final : public SparseFactors {
     }
   }
 
+  /// Rows that stay have their entries of outer columns in the rest.
+  void take(const double* __restrict values, BlocksSideBySide& batch, Index b) {
+    const int* sources = sources_.of(b).data();
+    for (Index j = 0; j < pivots_ + outer_; ++j, sources += height_ * lanes) {
+      double* __restrict const column = batch.at(0, j);
+      const Index count = (j < pivots_ ? height_ : height_ - staying_) * lanes;
+      for (Index k = 0; k < count; ++k) column[k] = values[sources[k]];
+      std::fill(column + count, column + height_ * lanes, 0.0);
+    }
+  }
+
   /// What is left of blocks goes into the rest.
   void leave(const BlocksSideBySide& batch, Index b) {
     double* const rest = rest_.valuePtr();
@@ -353,7 +370,8 @@ class AlikeFactors final : public SparseFactors {
   Table sources_;        // of their entries, or -1
   Table targets_;        // of what is left
   std::vector<BlocksSideBySide> batches_;
-  Matrix vectors_;  // of all their rows
+  Matrix row_scales_;  // of those that do not stay
+  Matrix vectors_;     // of all their rows
   RowsLeft left_;
   Vector behind_;
   Vector rest_vector_;

@@ -1,5 +1,8 @@
 #include "arcslip/continuation/linear/blocks_side_by_side.hpp"
 
+#include "arcslip/continuation/linear/row_scale.hpp"
+#include "arcslip/wide.hpp"
+
 namespace arcslip::continuation {
 
 /// The row of each matrix that is to give pivot k comes there.
@@ -25,7 +28,26 @@ void BlocksSideBySide::exchange(Index k) {
   }
 }
 
-void BlocksSideBySide::eliminate() {
+ARCSLIP_WIDE bool BlocksSideBySide::scale_rows(double* __restrict scale) {
+  const Index count = (rows_ - staying_) * lanes;
+  std::fill_n(scale, count, 0.0);
+  for (Index j = 0; j < columns_; ++j) {
+    const double* __restrict const column = at(0, j);
+    for (Index i = 0; i < count; ++i) {
+      const double size = std::abs(column[i]);
+      scale[i] = size > scale[i] ? size : scale[i];
+    }
+  }
+  if (std::any_of(scale, scale + count, [](double largest) { return largest == 0; })) return false;
+  for (Index i = 0; i < count; ++i) scale[i] = scale_to_one(scale[i]);
+  for (Index j = 0; j < columns_; ++j) {
+    double* __restrict const column = at(0, j);
+    for (Index i = 0; i < count; ++i) column[i] *= scale[i];
+  }
+  return true;
+}
+
+ARCSLIP_WIDE void BlocksSideBySide::eliminate() {
   double inverse[lanes];
   double factor[lanes];
   for (Index k = 0; k < pivots_; ++k) {
@@ -37,6 +59,26 @@ void BlocksSideBySide::eliminate() {
       for (Index l = 0; l < lanes; ++l) factor[l] = other[l] * inverse[l];
       subtract(rows_ - k - 1, other + lanes, column + lanes, factor);
     }
+  }
+}
+
+ARCSLIP_WIDE void BlocksSideBySide::forward(double* y) const {
+  double factor[lanes];
+  for (Index k = 0; k < pivots_; ++k) {
+    exchange(k, y);
+    double* const own = y + k * lanes;
+    const double* const column = at(k, k);
+    for (Index l = 0; l < lanes; ++l) factor[l] = own[l] / column[l];
+    subtract(rows_ - k - 1, own + lanes, column + lanes, factor);
+  }
+}
+
+ARCSLIP_WIDE void BlocksSideBySide::back(double* y, const double* behind) const {
+  for (Index j = pivots_; j < columns_; ++j, behind += lanes) subtract(pivots_, y, at(0, j), behind);
+  for (Index k = pivots_; k-- > 0;) {
+    double* const own = y + k * lanes;
+    for (Index l = 0; l < lanes; ++l) own[l] /= at(k, k)[l];
+    subtract(k, y, at(0, k), own);
   }
 }
 

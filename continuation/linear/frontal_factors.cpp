@@ -5,6 +5,7 @@
 
 #include "arcslip/continuation/linear/bordered_solver.hpp"
 #include "arcslip/continuation/linear/front_plan.hpp"
+#include "arcslip/continuation/linear/row_scale.hpp"
 #include "arcslip/continuation/linear/sparse_factors.hpp"
 
 namespace arcslip::continuation {
@@ -50,7 +51,8 @@ class FrontalFactors final : public SparseFactors {
     values_.resize(static_cast<std::size_t>(last.values) + at(last.stride) * at(last.columns));
   }
 
-  double factor(SparseMatrix& matrix) override {
+  double factor(const SparseMatrix& matrix) override {
+    if (!find_row_scale(matrix, row_scale_)) return 0;
     double sign = orders_sign_;
     growth_ = 0;
     for (std::size_t f = 0; f < fronts_.size() && sign != 0; ++f) {
@@ -65,12 +67,16 @@ class FrontalFactors final : public SparseFactors {
       const double* a = values_.data() + front.values;
       for (int k = 0; k < front.pivots; ++k) product *= a[static_cast<std::ptrdiff_t>(k) * front.stride + k];
     }
+    for (const double scale : row_scale_) product /= scale;
   }
 
   double growth() const override { return growth_; }
 
   void solve(Vector& x) override {
-    for (Index i = 0; i < x.size(); ++i) work_(i) = x(row_order_[static_cast<std::size_t>(i)]);
+    for (Index i = 0; i < x.size(); ++i) {
+      const int row = row_order_[static_cast<std::size_t>(i)];
+      work_(i) = x(row) * row_scale_(row);
+    }
     double* y = work_.data();
     double* staying = y + work_.size();
     for (const Front& front : fronts_) {
@@ -126,7 +132,10 @@ class FrontalFactors final : public SparseFactors {
       }
       for (int k = front->pivots; k-- > 0;) std::swap(own[k], own[front->exchanged[at(k)]]);
     }
-    for (Index i = 0; i < x.size(); ++i) x(row_order_[static_cast<std::size_t>(i)]) = work_(i);
+    for (Index i = 0; i < x.size(); ++i) {
+      const int row = row_order_[static_cast<std::size_t>(i)];
+      x(row) = work_(i) * row_scale_(row);
+    }
   }
 
  private:
@@ -150,7 +159,11 @@ class FrontalFactors final : public SparseFactors {
       }
     }
     const double* values = matrix.valuePtr();
-    for (std::size_t k = 0; k < front.entries.size(); ++k) a[front.places[k]] = values[front.entries[k]];
+    const int* rows = matrix.innerIndexPtr();
+    for (std::size_t k = 0; k < front.entries.size(); ++k) {
+      const int entry = front.entries[k];
+      a[front.places[k]] = values[entry] * row_scale_(rows[entry]);
+    }
   }
 
   /// The sign of the pivots and of the exchanges of rows.
@@ -208,6 +221,7 @@ class FrontalFactors final : public SparseFactors {
   double orders_sign_ = 1;
   double growth_ = 0;
   std::vector<double> values_;
+  Vector row_scale_;
   Vector work_;
 };
 

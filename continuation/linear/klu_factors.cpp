@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "arcslip/continuation/linear/bordered_solver.hpp"
+#include "arcslip/continuation/linear/row_scale.hpp"
 #include "arcslip/continuation/linear/sparse_factors.hpp"
 
 namespace arcslip::continuation {
@@ -17,13 +18,15 @@ namespace {
 // digits. Where they grow even so, as near homoclinic orbits, none but the largest is taken.
 constexpr double least_pivot = 0.1;
 constexpr double most_growth = 1e3;  // with old pivots, over that when they were chosen
+constexpr double last_weight =
+    1e-6;                        // of the largest entry of a row for the end where that of others is 1 to 2
 constexpr double most_fill = 2;  // over the least: pivots that fill more were a makeshift, which is not kept
 
 /// Owns what KLU allocates.
 class KluFactors final : public SparseFactors {
  public:
-  KluFactors(SparseMatrix& pattern, std::vector<int>& order)
-      : seen_(static_cast<std::size_t>(pattern.rows())) {
+  KluFactors(SparseMatrix& pattern, std::vector<int>& order, const std::vector<Index>& last_rows)
+      : scaled_(pattern), last_rows_(last_rows), seen_(static_cast<std::size_t>(pattern.rows())) {
     klu_defaults(&common_);
     common_.btf = 0;  // the borders couple everything to one block
     common_.scale = -1;
@@ -38,24 +41,34 @@ class KluFactors final : public SparseFactors {
   KluFactors(const KluFactors&) = delete;
   KluFactors& operator=(const KluFactors&) = delete;
 
-  double factor(SparseMatrix& matrix) override {
-    if (factor_with_old_pivots(matrix)) {
+  double factor(const SparseMatrix& matrix) override {
+    if (!find_row_scale(matrix, row_scale_)) return 0;
+    for (const Index row : last_rows_) row_scale_(row) *= last_weight;
+    const int* const rows = matrix.innerIndexPtr();
+    for (Index k = 0; k < matrix.nonZeros(); ++k)
+      scaled_.valuePtr()[k] = matrix.valuePtr()[k] * row_scale_(rows[k]);
+    if (factor_with_old_pivots()) {
       const double result = sign();
       if (result != 0) return result;
     }
-    return factor_with_new_pivots(matrix) ? sign() : 0;
+    return factor_with_new_pivots() ? sign() : 0;
   }
 
   void multiply_determinant(LogProduct& product) const override {
     const auto* pivots = static_cast<const double*>(numeric_->Udiag);
     for (int i = 0; i < numeric_->n; ++i) product *= pivots[i];
+    for (const double scale : row_scale_) product /= scale;
   }
 
   double growth() const override { return growth_; }
 
-  void solve(Vector& x) override { klu_solve(symbolic_, numeric_, numeric_->n, 1, x.data(), &common_); }
+  void solve(Vector& x) override {
+    x.array() *= row_scale_.array();
+    klu_solve(symbolic_, numeric_, numeric_->n, 1, x.data(), &common_);
+  }
   void solve_transposed(Vector& x) override {
     klu_tsolve(symbolic_, numeric_, numeric_->n, 1, x.data(), &common_);
+    x.array() *= row_scale_.array();
   }
 
  private:
@@ -65,37 +78,37 @@ class KluFactors final : public SparseFactors {
       throw std::length_error("sparse factorisation: more entries than indices can count");
   }
 
-  bool factor_with_new_pivots(SparseMatrix& matrix) {
-    return factor_with(matrix, least_pivot) && (growth_ <= worst_growth || factor_with(matrix, 1));
+  bool factor_with_new_pivots() {
+    return factor_with(least_pivot) && (growth_ <= worst_growth || factor_with(1));
   }
 
-  bool factor_with(SparseMatrix& matrix, double tolerance) {
+  bool factor_with(double tolerance) {
     common_.tol = tolerance;
     klu_free_numeric(&numeric_, &common_);
     numeric_ =
-        klu_factor(matrix.outerIndexPtr(), matrix.innerIndexPtr(), matrix.valuePtr(), symbolic_, &common_);
+        klu_factor(scaled_.outerIndexPtr(), scaled_.innerIndexPtr(), scaled_.valuePtr(), symbolic_, &common_);
     check_memory();
     if (numeric_ == nullptr || common_.status != KLU_OK) return false;
     least_fill_ = least_fill_ > 0 ? std::min(least_fill_, fill()) : fill();
-    set_growth(matrix);
+    set_growth();
     chosen_growth_ = growth_;
     permutations_sign_ = permutation_sign(numeric_->Pnum, seen_) * permutation_sign(symbolic_->Q, seen_);
     return true;
   }
 
-  bool factor_with_old_pivots(SparseMatrix& matrix) {
+  bool factor_with_old_pivots() {
     if (numeric_ == nullptr || fill() > most_fill * least_fill_) return false;
-    const int done = klu_refactor(matrix.outerIndexPtr(), matrix.innerIndexPtr(), matrix.valuePtr(),
+    const int done = klu_refactor(scaled_.outerIndexPtr(), scaled_.innerIndexPtr(), scaled_.valuePtr(),
                                   symbolic_, numeric_, &common_);
     if (done == 0 || common_.status != KLU_OK) return false;
-    set_growth(matrix);
+    set_growth();
     return growth_ <= std::min(most_growth * chosen_growth_, std::max(worst_growth, chosen_growth_));
   }
 
   double fill() const { return static_cast<double>(numeric_->lnz) + static_cast<double>(numeric_->unz); }
 
-  void set_growth(SparseMatrix& matrix) {
-    klu_rgrowth(matrix.outerIndexPtr(), matrix.innerIndexPtr(), matrix.valuePtr(), symbolic_, numeric_,
+  void set_growth() {
+    klu_rgrowth(scaled_.outerIndexPtr(), scaled_.innerIndexPtr(), scaled_.valuePtr(), symbolic_, numeric_,
                 &common_);
     growth_ = 1 / common_.rgrowth;
   }
@@ -110,6 +123,9 @@ class KluFactors final : public SparseFactors {
     return sign;
   }
 
+  SparseMatrix scaled_;
+  Vector row_scale_;
+  std::vector<Index> last_rows_;
   klu_common common_{};
   klu_symbolic* symbolic_ = nullptr;
   klu_numeric* numeric_ = nullptr;
@@ -122,8 +138,9 @@ class KluFactors final : public SparseFactors {
 
 }  // namespace
 
-std::unique_ptr<SparseFactors> make_klu_factors(SparseMatrix& pattern, std::vector<int>& order) {
-  return std::make_unique<KluFactors>(pattern, order);
+std::unique_ptr<SparseFactors> make_klu_factors(SparseMatrix& pattern, std::vector<int>& order,
+                                                const std::vector<Index>& last_rows) {
+  return std::make_unique<KluFactors>(pattern, order, last_rows);
 }
 
 }  // namespace arcslip::continuation

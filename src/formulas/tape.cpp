@@ -69,33 +69,28 @@ class Lanes {
       case Operator::add: return set(place, [=](std::size_t k) { return a[k] + b[k]; });
       case Operator::subtract: return set(place, [=](std::size_t k) { return a[k] - b[k]; });
       case Operator::multiply: return set(place, [=](std::size_t k) { return a[k] * b[k]; });
+      case Operator::divide: return set(place, [=](std::size_t k) { return a[k] / b[k]; });
+      case Operator::integer_power:
+        if (one.right == 2) return set(place, [=](std::size_t k) { return a[k] * a[k]; });
+        [[fallthrough]];
       default: return set(place, [=, &one](std::size_t k) { return value_of(one, a[k], b[k]); });
     }
   }
 
-  void set_slopes(std::size_t place, const Operation& one, double* left, double* right) const {
+  void set_slopes(std::size_t left, std::size_t place, const Operation& one) const {
     const double* const a = (*this)[one.left];
     const double* const b = (*this)[right_of(one)];
-    if (one.kind == Operator::multiply) {
-      std::copy_n(b, lanes, left);
-      std::copy_n(a, lanes, right);
-      return;
-    }
-    if (one.kind == Operator::add || one.kind == Operator::subtract) {
-      std::fill_n(left, lanes, 1.0);
-      std::fill_n(right, lanes, one.kind == Operator::add ? 1.0 : -1.0);
-      return;
-    }
     for (std::size_t k = 0; k < lanes; ++k) {
       const Slopes slopes = slopes_of(one, a[k], b[k], (*this)[place][k], false);
-      left[k] = slopes.left;
-      right[k] = slopes.right;
+      (*this)[left][k] = slopes.left;
+      (*this)[left + 1][k] = slopes.right;
     }
   }
 
-  void add_product(int place, const double* __restrict a, const double* __restrict b) const {
-    double* __restrict const out = (*this)[place];
-    for (std::size_t k = 0; k < lanes; ++k) out[k] += a[k] * b[k];
+  /// Constants from a place on, then operations.
+  void set_all(std::size_t place, const OperationList& list) const {
+    for (const double constant : list.constants) set(place++, [=](std::size_t) { return constant; });
+    for (const Operation& one : list.operations) set_value(place++, one);
   }
 
  private:
@@ -104,50 +99,29 @@ class Lanes {
 
 }  // namespace
 
-Tape::Tape(Index variables, std::vector<double> constants, std::vector<Operation> operations,
-           std::vector<int> results)
-    : variables_(variables),
-      constants_(std::move(constants)),
-      operations_(std::move(operations)),
-      results_(std::move(results)),
-      first_(static_cast<std::size_t>(variables) + constants_.size()) {
-  for (const int result : results_) {
-    std::vector<bool> is_needed(slots(), false);
-    is_needed[static_cast<std::size_t>(result)] = true;
-    for (std::size_t i = operations_.size(); i-- > 0;) {
-      if (!is_needed[first_ + i]) continue;
-      is_needed[static_cast<std::size_t>(operations_[i].left)] = true;
-      is_needed[right_of(operations_[i])] = true;
-    }
-    for (std::size_t i = 0; i < operations_.size(); ++i) {
-      if (is_needed[first_ + i]) needed_.push_back(static_cast<int>(i));
-    }
-    needed_to_.push_back(needed_.size());
-  }
-}
-
 bool Tape::uses(Index variable) const {
   const auto place = static_cast<int>(variable);
-  return std::count(results_.begin(), results_.end(), place) > 0 ||
-         std::any_of(operations_.begin(), operations_.end(), [&](const Operation& one) {
+  return std::count(values_.results.begin(), values_.results.end(), place) > 0 ||
+         std::any_of(values_.operations.begin(), values_.operations.end(), [&](const Operation& one) {
            return one.left == place || static_cast<int>(right_of(one)) == place;
          });
 }
 
 void Tape::go_forward(const double* x, double* slots) const {
-  std::copy(constants_.begin(), constants_.end(), std::copy_n(x, variables_, slots));
-  double* value = slots + first_;
-  for (const Operation& one : operations_) *value++ = value_of(one, slots[one.left], slots[right_of(one)]);
+  std::copy(values_.constants.begin(), values_.constants.end(), std::copy_n(x, values_.variables, slots));
+  double* value = slots + values_.first();
+  for (const Operation& one : values_.operations)
+    *value++ = value_of(one, slots[one.left], slots[right_of(one)]);
 }
 
 bool Tape::take_values(const double* slots, double* values) const {
-  for (std::size_t i = 0; i < results_.size(); ++i) values[i] = slots[results_[i]];
-  return are_finite(values, results_.size());
+  for (std::size_t i = 0; i < values_.results.size(); ++i) values[i] = slots[values_.results[i]];
+  return are_finite(values, values_.results.size());
 }
 
 bool Tape::evaluate(const double* x, double* values) const {
-  Scratch scratch(slots());
-  double* const at = scratch.take(slots());
+  Scratch scratch(values_.slots());
+  double* const at = scratch.take(values_.slots());
   go_forward(x, at);
   return take_values(at, values);
 }
@@ -155,43 +129,30 @@ bool Tape::evaluate(const double* x, double* values) const {
 /// Of several points side by side.
 template <std::size_t lanes>
 bool Tape::evaluate_lanes(const double* x, double* values, double* gradients) const {
-  const auto variables = static_cast<std::size_t>(variables_);
-  const std::size_t results = results_.size();
-  const std::size_t count = operations_.size();
-  Scratch scratch(lanes * (2 * slots() + 2 * count));
-  const Lanes<lanes> at(scratch.take(lanes * slots()));
+  const auto variables = static_cast<std::size_t>(values_.variables);
+  const std::size_t results = values_.results.size();
+  const std::size_t slopes = values_.slots();
+  const std::size_t size = lanes * (gradients == nullptr ? slopes : gradient_.slots());
+  Scratch scratch(size);
+  const Lanes<lanes> at(scratch.take(size));
   for (std::size_t i = 0; i < variables; ++i) at.set(i, [&](std::size_t k) { return x[k * variables + i]; });
-  for (std::size_t i = 0; i < constants_.size(); ++i)
-    at.set(variables + i, [&](std::size_t) { return constants_[i]; });
-  for (std::size_t i = 0; i < count; ++i) at.set_value(first_ + i, operations_[i]);
+  at.set_all(variables, values_);
   for (std::size_t r = 0; r < results; ++r) {
-    for (std::size_t k = 0; k < lanes; ++k) values[k * results + r] = at[results_[r]][k];
+    for (std::size_t k = 0; k < lanes; ++k) values[k * results + r] = at[values_.results[r]][k];
   }
   if (!are_finite(values, lanes * results)) return false;
   if (gradients == nullptr) return true;
-  const Lanes<lanes> left(scratch.take(lanes * count));
-  const Lanes<lanes> right(scratch.take(lanes * count));
-  for (std::size_t i = 0; i < count; ++i) at.set_slopes(first_ + i, operations_[i], left[i], right[i]);
-  const Lanes<lanes> adjoint(scratch.take(lanes * slots()));
-  std::size_t begin = 0;
-  for (std::size_t r = 0; r < results; ++r) {
-    std::fill_n(adjoint[0], lanes * variables, 0.0);
-    for (std::size_t k = begin; k < needed_to_[r]; ++k)
-      std::fill_n(adjoint[first_ + static_cast<std::size_t>(needed_[k])], lanes, 0.0);
-    std::fill_n(adjoint[results_[r]], lanes, 1.0);
-    for (std::size_t k = needed_to_[r]; k-- > begin;) {
-      const auto i = static_cast<std::size_t>(needed_[k]);
-      adjoint.add_product(operations_[i].left, left[i], adjoint[first_ + i]);
-      if (has_two(operations_[i].kind))
-        adjoint.add_product(operations_[i].right, right[i], adjoint[first_ + i]);
-    }
-    for (std::size_t k = 0; k < lanes; ++k) {
-      double* const gradient = gradients + (k * results + r) * variables;
-      for (std::size_t i = 0; i < variables; ++i) gradient[i] = adjoint[i][k];
-    }
-    begin = needed_to_[r];
+  for (std::size_t k = 0; k < curved_.size(); ++k) {
+    const auto which = static_cast<std::size_t>(curved_[k]);
+    at.set_slopes(slopes + 2 * k, values_.first() + which, values_.operations[which]);
   }
-  return are_finite(gradients, lanes * results * variables);
+  at.set_all(static_cast<std::size_t>(gradient_.variables), gradient_);
+  const std::size_t count = gradient_.results.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* const entry = at[gradient_.results[i]];
+    for (std::size_t k = 0; k < lanes; ++k) gradients[k * count + i] = entry[k];
+  }
+  return are_finite(gradients, lanes * count);
 }
 
 bool Tape::evaluate(const double* x, double* values, double* gradients) const {
@@ -205,9 +166,9 @@ bool Tape::evaluate(const double* x, Index points, double* values, double* gradi
     const bool many = points >= lanes;
     if (many) k = std::min(k, points - lanes);  // the last ones again
     double* const value = values + k * size;
-    double* const gradient = gradients == nullptr ? nullptr : gradients + k * size * variables_;
-    if (!(many ? evaluate_lanes<lanes>(x + k * variables_, value, gradient)
-               : evaluate_lanes<1>(x + k * variables_, value, gradient)))
+    double* const gradient = gradients == nullptr ? nullptr : gradients + k * size * values_.variables;
+    if (!(many ? evaluate_lanes<lanes>(x + k * values_.variables, value, gradient)
+               : evaluate_lanes<1>(x + k * values_.variables, value, gradient)))
       return false;
     k += many ? lanes : 1;
   }
@@ -215,54 +176,55 @@ bool Tape::evaluate(const double* x, Index points, double* values, double* gradi
 }
 
 bool Tape::second(const double* x, const double* w, const double* dx, double* out) const {
-  const std::size_t count = operations_.size();
-  Scratch scratch(4 * slots() + 4 * count);
-  double* const at = scratch.take(slots());
-  double* const rate = scratch.zeros(slots());
+  const std::size_t count = values_.operations.size();
+  Scratch scratch(4 * values_.slots() + 4 * count);
+  double* const at = scratch.take(values_.slots());
+  double* const rate = scratch.zeros(values_.slots());
   double* const left = scratch.take(count);
   double* const right = scratch.take(count);
   double* const left_rate = scratch.take(count);
   double* const right_rate = scratch.take(count);
-  double* const adjoint = scratch.zeros(slots());
-  double* const adjoint_rate = scratch.zeros(slots());
+  double* const adjoint = scratch.zeros(values_.slots());
+  double* const adjoint_rate = scratch.zeros(values_.slots());
   go_forward(x, at);
-  std::copy_n(dx, variables_, rate);
+  std::copy_n(dx, values_.variables, rate);
   for (std::size_t i = 0; i < count; ++i) {
-    const Operation& one = operations_[i];
+    const Operation& one = values_.operations[i];
     const std::size_t b = right_of(one);
-    const Slopes slopes = slopes_of(one, at[one.left], at[b], at[first_ + i], true);
+    const Slopes slopes = slopes_of(one, at[one.left], at[b], at[values_.first() + i], true);
     const double da = rate[one.left];
     const double db = has_two(one.kind) ? rate[b] : 0;
     left[i] = slopes.left;
     right[i] = slopes.right;
     left_rate[i] = slopes.left_left * da + slopes.left_right * db;
     right_rate[i] = slopes.left_right * da + slopes.right_right * db;
-    rate[first_ + i] = slopes.left * da + slopes.right * db;
+    rate[values_.first() + i] = slopes.left * da + slopes.right * db;
   }
-  for (std::size_t r = 0; r < results_.size(); ++r) adjoint[results_[r]] += w[r];
+  for (std::size_t r = 0; r < values_.results.size(); ++r) adjoint[values_.results[r]] += w[r];
   for (std::size_t i = count; i-- > 0;) {
-    const Operation& one = operations_[i];
-    const double here = adjoint[first_ + i];
-    const double here_rate = adjoint_rate[first_ + i];
+    const Operation& one = values_.operations[i];
+    const double here = adjoint[values_.first() + i];
+    const double here_rate = adjoint_rate[values_.first() + i];
     adjoint[one.left] += left[i] * here;
     adjoint_rate[one.left] += left_rate[i] * here + left[i] * here_rate;
     if (!has_two(one.kind)) continue;
     adjoint[one.right] += right[i] * here;
     adjoint_rate[one.right] += right_rate[i] * here + right[i] * here_rate;
   }
-  std::copy_n(adjoint_rate, variables_, out);
-  return are_finite(out, static_cast<std::size_t>(variables_));
+  std::copy_n(adjoint_rate, values_.variables, out);
+  return are_finite(out, static_cast<std::size_t>(values_.variables));
 }
 
 bool Tape::series(const Series* x, Series* values) const {
   std::vector<Series> slots;
-  slots.reserve(this->slots());
-  slots.assign(x, x + variables_);
-  for (const double constant : constants_) slots.push_back({constant});
-  for (const Operation& one : operations_)
+  slots.reserve(values_.slots());
+  slots.assign(x, x + values_.variables);
+  for (const double constant : values_.constants) slots.push_back({constant});
+  for (const Operation& one : values_.operations)
     slots.push_back(series_of(one, slots[static_cast<std::size_t>(one.left)], slots[right_of(one)]));
-  for (std::size_t i = 0; i < results_.size(); ++i) values[i] = slots[static_cast<std::size_t>(results_[i])];
-  return std::all_of(values, values + results_.size(),
+  for (std::size_t i = 0; i < values_.results.size(); ++i)
+    values[i] = slots[static_cast<std::size_t>(values_.results[i])];
+  return std::all_of(values, values + values_.results.size(),
                      [](const Series& one) { return are_finite(one.data(), one.size()); });
 }
 

@@ -52,7 +52,7 @@ int TapeBuilder::raise(int base, int exponent) {
   return apply(Operator::fixed_power, base, exponent);
 }
 
-Tape TapeBuilder::finish(const std::vector<int>& results) const {
+OperationList TapeBuilder::lists(const std::vector<int>& results) const {
   std::vector<bool> is_needed(nodes_.size(), false);
   for (const int result : results) is_needed[static_cast<std::size_t>(result)] = true;
   for (std::size_t i = nodes_.size(); i-- > 0;) {

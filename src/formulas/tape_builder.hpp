@@ -20,8 +20,9 @@ class TapeBuilder {
   int raise(int base, int exponent);
   int negate(int node) { return apply(Operator::multiply, constant(-1), node); }
 
-  /// With what these nodes need.
-  Tape finish(const std::vector<int>& results) const;
+  /// What these nodes need, with them for results.
+  OperationList lists(const std::vector<int>& results) const;
+  Tape finish(const std::vector<int>& results) const { return Tape(lists(results)); }
 
  private:
   struct Node {

@@ -4,12 +4,13 @@
 //
 //   v_i = f_i(v_a, v_b),  a, b < i,
 //
-// for values; backwards for gradients, by the adjoints dF/dv_a += dF/dv_i df_i/dv_a of each result; and
-// backwards with dual numbers v + h v' for second derivatives along a direction; and with series for higher
-// ones along a curve [Griewank & Walther, Evaluating Derivatives, 2nd ed., SIAM 2008, ch. 3, 5 and 13]. All
-// are exact to rounding.
+// for values; then on, for gradients, through what going backwards by the adjoints dF/dv_a += dF/dv_i
+// df_i/dv_a of each result comes to; backwards with dual numbers v + h v' for second derivatives along a
+// direction; and with series for higher ones along a curve [Griewank & Walther, Evaluating Derivatives, 2nd
+// ed., SIAM 2008, ch. 3, 5 and 13]. All are exact to rounding.
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "arcslip/formulas/series.hpp"
@@ -45,27 +46,36 @@ struct Operation {
   int right;      ///< place of b, or what stands there
 };
 
+/// What is done one after the other: places are those of variables, constants and operations, in this order.
+struct OperationList {
+  Index variables = 0;
+  std::vector<double> constants;
+  std::vector<Operation> operations;
+  std::vector<int> results;  ///< their places
+
+  std::size_t first() const { return static_cast<std::size_t>(variables) + constants.size(); }  ///< operation
+  std::size_t slots() const { return first() + operations.size(); }
+};
+
 /// Results by variables x, as many as `variables()`; may be shared by threads. Up to some hundred operations
 /// nothing is allocated.
 class Tape {
  public:
   Tape() = default;
 
-  /// `results` are places of variables, constants or operations. Operations that none of them needs are
-  /// best left out.
-  Tape(Index variables, std::vector<double> constants, std::vector<Operation> operations,
-       std::vector<int> results);
+  /// Operations that no result needs are best left out.
+  explicit Tape(OperationList values) : values_(std::move(values)) { find_gradient(); }
 
-  Index variables() const { return variables_; }                ///< how many
-  Index results() const { return std::ssize(results_); }        ///< how many
-  Index operations() const { return std::ssize(operations_); }  ///< how many are done for all results
-  bool uses(Index variable) const;                              ///< whether any result depends on it
+  Index variables() const { return values_.variables; }                ///< how many
+  Index results() const { return std::ssize(values_.results); }        ///< how many
+  Index operations() const { return std::ssize(values_.operations); }  ///< how many are done for all results
+  bool uses(Index variable) const;                                     ///< whether any result depends on it
 
   /// What there is to do, for arithmetic of another kind: after the places of variables and constants come
   /// those of the operations.
-  const std::vector<double>& constants() const { return constants_; }
-  const std::vector<Operation>& steps() const { return operations_; }
-  const std::vector<int>& places() const { return results_; }  ///< of the results
+  const std::vector<double>& constants() const { return values_.constants; }
+  const std::vector<Operation>& steps() const { return values_.operations; }
+  const std::vector<int>& places() const { return values_.results; }  ///< of the results
 
   /// Fills `values`, one for each result. False where one is not finite.
   [[nodiscard]] bool evaluate(const double* x, double* values) const;
@@ -86,17 +96,13 @@ class Tape {
  private:
   template <std::size_t lanes>
   bool evaluate_lanes(const double* x, double* values, double* gradients) const;
-  std::size_t slots() const { return first_ + operations_.size(); }
+  void find_gradient();
   void go_forward(const double* x, double* slots) const;
   bool take_values(const double* slots, double* values) const;
 
-  Index variables_ = 0;
-  std::vector<double> constants_;
-  std::vector<Operation> operations_;
-  std::vector<int> results_;
-  std::size_t first_ = 0;               // slot of the first operation
-  std::vector<int> needed_;             // operations, in rising order, for each result
-  std::vector<std::size_t> needed_to_;  // where those of each result end
+  OperationList values_;
+  OperationList gradient_;   // results x variables, of the places of the values and of slopes
+  std::vector<int> curved_;  // the operations of which these are, two of each
 };
 
 }  // namespace arcslip

@@ -31,6 +31,10 @@ class BlocksSideBySide {
   double* at(Index row, Index column) { return values_.data() + (column * rows_ + row) * lanes; }
   const double* at(Index row, Index column) const { return values_.data() + (column * rows_ + row) * lanes; }
 
+  /// Multiplies the rows of each matrix, but those that stay, by powers of two that make their largest
+  /// entries 1 to 2, which go to `scale` side by side. False if a row is zero.
+  [[nodiscard]] bool scale_rows(double* scale);
+
   /// Leaves multiples of the pivots' columns below these, and in the rows of pivots and behind the columns
   /// what the elimination has made.
   void eliminate();
@@ -49,26 +53,10 @@ class BlocksSideBySide {
   }
 
   /// The same elimination in a vector of all rows.
-  void forward(double* y) const {
-    double factor[lanes];
-    for (Index k = 0; k < pivots_; ++k) {
-      exchange(k, y);
-      double* const own = y + k * lanes;
-      const double* const column = at(k, k);
-      for (Index l = 0; l < lanes; ++l) factor[l] = own[l] / column[l];
-      subtract(rows_ - k - 1, own + lanes, column + lanes, factor);
-    }
-  }
+  void forward(double* y) const;
 
   /// Its first entries, as many as there are pivots, become the unknowns, where the others are `behind`.
-  void back(double* y, const double* behind) const {
-    for (Index j = pivots_; j < columns_; ++j, behind += lanes) subtract(pivots_, y, at(0, j), behind);
-    for (Index k = pivots_; k-- > 0;) {
-      double* const own = y + k * lanes;
-      for (Index l = 0; l < lanes; ++l) own[l] /= at(k, k)[l];
-      subtract(k, y, at(0, k), own);
-    }
-  }
+  void back(double* y, const double* behind) const;
 
   /// Of the transposed matrices: the first entries become those of the rows of pivots, which are taken out of
   /// the entries `behind`.

@@ -24,6 +24,7 @@ class SparseBorderedSolver final : public BorderedSolver {
  public:
   /// For n = `size` unknowns; neither number may be negative.
   SparseBorderedSolver(Index size, Index borders);
+  ~SparseBorderedSolver() override;
 
   /// The dense one throws.
   using BorderedSolver::set_jacobian;
@@ -45,19 +46,23 @@ class SparseBorderedSolver final : public BorderedSolver {
   void set_borders();
   double factor_by_entries();
   void find_last_rows(const SparseMatrix& jacobian);
-  bool scale_rows(double weight_of_last);
   void solve_refined(bool transposed);
 
-  SparseMatrix matrix_;  // whole; its rows are multiplied by row_scale_ in scaled_
-  SparseMatrix scaled_;
-  Vector largest_;  // entries of J in each row
-  Vector row_scale_;
+  /// What the pattern alone tells, and room for values.
+  struct Plan {
+    Index borders = -1;                    // -1 where there is none
+    SparseMatrix matrix;                   // whole
+    std::vector<int> order;                // of elimination, with the least fill
+    std::vector<Index> last_rows;          // for its end
+    std::unique_ptr<SparseFactors> dense;  // by fronts, or by blocks that are alike and then by fronts
+  };
+  /// Of a solver that is gone: on each new mesh of an orbit there is a new one for the same pattern.
+  static thread_local Plan spare;
+
+  Plan plan_;
   Vector right_hand_side_;
   Vector solution_;
   Vector residual_;
-  std::vector<int> order_;                // of elimination, with the least fill
-  std::vector<Index> last_rows_;          // for its end
-  std::unique_ptr<SparseFactors> dense_;  // by fronts, or by blocks that are alike and then by fronts
   std::unique_ptr<SparseFactors> klu_;
   SparseFactors* factors_ = nullptr;  // which of them
 };

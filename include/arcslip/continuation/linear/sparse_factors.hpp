@@ -13,20 +13,20 @@ namespace arcslip::continuation {
 
 constexpr double worst_growth = 1e9;  ///< of entries in an elimination: refinement gives back these digits
 
-/// Factors of square matrices of one pattern, whose entries are about 1 in each row but for the borders' last
-/// rows, which are kept for the end.
+/// Factors of square matrices of one pattern, whose columns are in scale; rows are scaled for the choice of
+/// pivots. The borders' rows, the last ones, are kept for the end.
 class SparseFactors {
  public:
   virtual ~SparseFactors() = default;
 
   /// The sign of the determinant; 0 if the matrix is singular or not finite. Throws std::bad_alloc or
   /// std::length_error where the factors do not fit into memory or their indices.
-  virtual double factor(SparseMatrix& matrix) = 0;
+  virtual double factor(const SparseMatrix& matrix) = 0;
 
   /// By the size of the determinant.
   virtual void multiply_determinant(LogProduct& product) const = 0;
 
-  /// To how much entries of about 1 grew in the elimination: solutions lose as many digits.
+  /// To how much entries of about 1 in each row grew in the elimination: solutions lose as many digits.
   virtual double growth() const = 0;
 
   /// What was left of blocks; null where there are none.
@@ -37,9 +37,11 @@ class SparseFactors {
 };
 
 /// By KLU [Davis & Palamadai Natarajan, ACM TOMS 37 (2010) 36], with rows and columns in this order but for
-/// the exchanges of rows that pivots need. Takes the pivots of the last factorisation where these still
-/// serve, which saves a quarter of the time. Throws as `factor` does.
-std::unique_ptr<SparseFactors> make_klu_factors(SparseMatrix& pattern, std::vector<int>& order);
+/// the exchanges of rows that pivots need, and the entries of some rows for 1e-6 of the others' where these
+/// are to come last. Takes the pivots of the last factorisation where these still serve, which saves a
+/// quarter of the time. Throws as `factor` does.
+std::unique_ptr<SparseFactors> make_klu_factors(SparseMatrix& pattern, std::vector<int>& order,
+                                                const std::vector<Index>& last_rows = {});
 
 /// By fronts [Irons, Int. J. Numer. Meth. Engng 2 (1970) 5]: rows enter a dense matrix in the order of their
 /// first columns, and columns that no later row has are eliminated, with pivots from the largest entries of
