@@ -24,6 +24,21 @@ ContactModes opposite(const ContactModes& modes) {
   return {modes.contacts(), std::move(all), modes.loss()};
 }
 
+/// The same under as many waves as half the sectors, if its load is half of that of each direction: shapes
+/// are real there but for a phase, and what the load has of the other phase cancels.
+ContactModes of_both_directions(const ContactModes& modes) {
+  if (modes.is_solved()) return modes;
+  std::vector<ContactMode> all = modes.modes();
+  for (ContactMode& mode : all) {
+    Index largest = 0;
+    const double size = mode.shape.cwiseAbs().maxCoeff(&largest);
+    const Complex phase = size > 0 ? mode.shape(largest) / size : 1;
+    mode.shape = (mode.shape / phase).real().cast<Complex>().eval();
+    mode.load = (mode.load * phase).real();
+  }
+  return {modes.contacts(), std::move(all), modes.loss()};
+}
+
 /// The same under so many times its load.
 ContactModes loaded(const ContactModes& modes, Complex amplitude) {
   const double size = std::abs(amplitude);
@@ -136,6 +151,7 @@ std::vector<ContactModes> waves_of(const Structures& sector, SystemParameters on
     one.wave_number = turns && 2 * m > n ? m - n : m;  // whose modes are those of n - m backwards
     const bool is_own = 2 * m <= n || (is_travelling && amplitude != 0.0) || all.front().is_solved();
     all.push_back(is_own ? sector.seen(one, is_base) : opposite(all[static_cast<std::size_t>(n - m)]));
+    if (2 * m == n && !is_travelling) all.back() = of_both_directions(all.back());
   }
   for (Index m = 0; m < n; ++m) {
     ContactModes& wave = all[static_cast<std::size_t>(m)];

@@ -155,8 +155,17 @@ void read_element_changes(const TomlDocument& document, const SystemParameters& 
   if (const std::vector<TomlSection> cuts = changing_tables(document, "cut"); !cuts.empty())
     cuts.front().fail("part", "not of rods and beams, whose damper is cut by `split`");
   const TomlSection section(document, "ring");
-  for (const Index i : listed_sectors(section, "split", ring.sectors))
+  const std::vector<Index> split = listed_sectors(section, "split", ring.sectors);
+  for (const Index i : split) {
+    const Index next = (i + 1) % ring.sectors;
+    if (std::count(split.begin(), split.end(), next) > 0)
+      section.fail(
+          "split",
+          fmt::format("expected no neighbours, got {} and {}: of the damper nothing would be left at "
+                      "node {}",
+                      i + 1, next + 1, next + 1));
     ring.changes.push_back(element_change(system, false, i, -1, true));
+  }
   for (const bool on_base : {true, false}) {
     const bool is_changed = std::any_of(ring.changes.begin(), ring.changes.end(),
                                         [=](const RingChange& change) { return change.on_base == on_base; });

@@ -104,6 +104,28 @@ TEST_CASE("Split and mistuned rods and beams are what their assembled elements a
   }
 }
 
+TEST_CASE("A node of the damper keeps an element on one side at least", "[ring section]") {
+  for (const char* split : {"[1, 2]", "[8, 1]", "[4, 2, 5]"}) {
+    INFO(split);
+    CHECK_THROWS_WITH(system_of(ring_case("rods", fmt::format("[ring]\nsplit = {}\n", split))),
+                      ContainsSubstring("ring.split") && ContainsSubstring("expected no neighbours"));
+  }
+}
+
+TEST_CASE("A point load on a ring that is its own mirror image moves both sides alike", "[ring section]") {
+  // of beams, whose rotations the wave N/2 would load if it ran one way
+  const SystemParameters system =
+      system_of(ring_case("beams",
+                          "[ring]\nload = \"point\"\n[[ring.mistuning]]\npart = \"base\"\n"
+                          "factors = [1.2, 0.8, 1.1, 0.9, 0.9, 1.1, 0.8, 1.2]\n"));
+  const HarmonicResponse problem = response_of(system);
+  for (const double eta : {1.2, 3.3, 4.2}) {
+    const SectorMotions found = problems::sector_motions(problem, problem.guess(eta, 1e9));
+    for (Index i = 1; i < 4; ++i)
+      CHECK(std::abs(found.base(0, i) - found.base(0, 8 - i)) < 1e-9 * std::abs(found.base(0, i)));
+  }
+}
+
 TEST_CASE("Factors of contacts are read from lists, files and scatter", "[ring section]") {
   const TemporaryFolder folder;
   folder.write("factors.csv", "1.5 # first\n2\n1,1,1\n1\n1\n0.5\n");
