@@ -141,7 +141,7 @@ Matrix PiecewiseCycle::told_orbit(const Vector& u) const {
 Vector PiecewiseCycle::times(const Vector& u, const Vector& p, const Regime& regime) const {
   const Vector places = OrbitProblem::times(u, p, regime);
   Vector all(count_ * nodes());
-  double begin = 0;
+  double begin = pieces_->time_at(u.head(n_), p);
   for (Index k = 0; k < count_; ++k) {
     all.segment(k * nodes(), nodes()) = begin + lasts(u)(k) * places.array();
     begin += lasts(u)(k);

@@ -36,6 +36,7 @@ class TwoRounds : public PiecewiseField {
     return all;
   }
 
+  double time_at(const Vector& u, const Vector& p) const override { return once_->time_at(u, p); }
   bool velocity(Index piece, const Vector& u, const Vector& p, const FieldValues& out) const override {
     return once_->velocity(piece % once_->pieces(), u, p, out);
   }

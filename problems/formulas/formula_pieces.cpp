@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "field_values.hpp"
@@ -80,6 +81,14 @@ FormulaPieces::FormulaPieces(const FormulaSystem& system) : told_(std::ssize(sys
                        compile({variables, definitions, {given->until}, refused}),
                        compile({variables, definitions, reset, refused})});
   }
+}
+
+/// By the last unknown, t/T.
+double FormulaPieces::time_at(const Vector& u, const Vector& p) const {
+  double period = 0;
+  if (!period_ || !period_->evaluate(p.data(), &period)) return 0;
+  const double phase = u(u.size() - 1);
+  return (phase - std::floor(phase)) * period;
 }
 
 bool FormulaPieces::velocity(Index i, const Vector& u, const Vector& p,

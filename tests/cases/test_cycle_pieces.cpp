@@ -96,6 +96,9 @@ TEST_CASE("A ball on a shaking table comes to its bounce whichever way it is dro
       const Matrix orbit = orbits_of(all[0])->told_orbit(first.unknowns);
       CHECK_THAT(orbit(1, 0), WithinAbs(pi, 1e-8));
       CHECK_THAT(orbit(1, orbit.cols() - 1), WithinAbs(-pi, 1e-8));
+      const Vector t = orbits_of(all[0])->times(first.unknowns, first.parameters, first.regime);
+      for (const Index end : {Index{0}, t.size() - 1})  // on the table
+        CHECK_THAT(orbit(0, end), WithinAbs(0.6 * std::sin(t(end)), 1e-8));
     }
   }
 }

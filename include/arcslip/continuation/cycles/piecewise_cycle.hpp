@@ -41,6 +41,9 @@ class PiecewiseField {
   /// Of an unknown of which values that differ by this are the same; else 0.
   virtual double turn(Index /*unknown*/) const { return 0; }
 
+  /// The time, of a period from 0 on, at a point of the motion; 0 where equations have none in them.
+  virtual double time_at(const Vector& /*u*/, const Vector& /*p*/) const { return 0; }
+
   virtual void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
     unknowns = u.cwiseAbs().cwiseMax(1);
     parameters = p.cwiseAbs().cwiseMax(1);

@@ -34,6 +34,7 @@ class FormulaPieces : public continuation::PiecewiseField {
     scale_(u, p, unknowns, parameters);
   }
   double turn(Index unknown) const override { return turns_[static_cast<std::size_t>(unknown)]; }
+  double time_at(const Vector& u, const Vector& p) const override;
   /// See problems::require_period; without one nothing is required.
   void require_period(const Vector& p) const {
     if (period_) problems::require_period(*period_, p);
