@@ -144,8 +144,8 @@ void Tracer::halt(Stop reason) {
 void Tracer::check_limits() {
   const CurvePoint& here = stepper_.here();
   const Index n = corrector_.size();
-  if (interrupted_) return halt(Stop::interrupted);
   if (satisfied_) return stop(Stop::requested, fmt::format("stop_after was satisfied at {}", place()));
+  if (interrupted_) return halt(Stop::interrupted);
   if (static_cast<long>(branch_.points.size()) >= options_.max_points) {
     return stop(Stop::max_points, fmt::format("max_points = {} points were stored; the branch stands at {}",
                                               options_.max_points, place()));

@@ -308,3 +308,12 @@ TEST_CASE("Points of a branch lie no farther apart than max_step, but for the co
     CHECK(branch.points[i].arclength - branch.points[i - 1].arclength <= 1.15 * 0.03);
   }
 }
+
+TEST_CASE("A branch that has all that was asked for says so, told to end there or not") {
+  TraceOptions options = over("mu", -2, 2);
+  options.stop_after = {{PointType::fold, 1, {}}};
+  const Branch branch = trace(Cusp(), guess_of({-1.5}, -2), options,
+                              [](const BranchPoint& point) { return point.type != PointType::fold; });
+  CHECK(branch.stop == Stop::requested);
+  CHECK(branch.points.back().type == PointType::fold);
+}
