@@ -28,12 +28,22 @@ std::optional<Known> first_known(StepSearch& step, std::size_t which, std::initi
   return std::nullopt;
 }
 
+/// Of a normal form of maps and cycles, whose terms may have poles at other special points: there it has
+/// either sign.
+bool is_coefficient(PointType type) {
+  return type == PointType::generalized_period_doubling || type == PointType::chenciner;
+}
+
+constexpr double off_pole = 1e-7;  // of the step: farther than points are located
+
 /// As far as a function is known that has a value where the step begins: to its end, or to its first event. A
 /// determinant that has no value at either is rounding before; others are read a little before an event where
-/// they have no value or no sign, as it may be where a curve ends or where their terms have poles.
-std::optional<Known> known_by(StepSearch& step, std::size_t which, double end, bool is_determinant) {
+/// they have no value or no sign, as it may be where a curve ends, coefficients before any.
+std::optional<Known> known_by(StepSearch& step, std::size_t which, double end, PointType type) {
+  const bool is_determinant = type == PointType::branch_point;
   if ((step.is_whole() || is_determinant) && !std::isfinite(end)) return std::nullopt;
   if (step.is_whole()) return Known{step.upper(), end};
+  if (is_coefficient(type)) return first_known(step, which, {1 - off_pole, 1 - 1e-3, 1 - 1e-2, 1 - 1e-1});
   if (!is_determinant) return first_known(step, which, {1, 1 - 1e-3, 1 - 1e-2, 1 - 1e-1});
   const std::optional<double> value = step.readings.value(which, step.upper());
   return value ? std::optional(Known{step.upper(), *value}) : std::nullopt;
@@ -70,13 +80,13 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
   const bool is_determinant = step.watch.type(i) == PointType::branch_point;
   const bool begins = std::isfinite(step.watch.kept().front().functions[i]);
   if (!begins && (is_determinant || step.watch.type(i) == PointType::event)) return;  // no zero is told
-  const std::optional<Known> known = known_by(step, which, step.functions_at_end[i], is_determinant);
+  const std::optional<Known> known = known_by(step, which, step.functions_at_end[i], step.watch.type(i));
   if (!known) return;
   const auto [to, after] = *known;
   int before = step.signs.functions[i];
   double from = 0;
-  if (!begins) {  // as at a point where a test's terms have poles
-    const std::optional<Known> beyond = first_known(step, which, {1e-3, 1e-2, 1e-1});
+  if (!begins || (step.signs.at_crossing && is_coefficient(step.watch.type(i)))) {
+    const std::optional<Known> beyond = first_known(step, which, {off_pole, 1e-3, 1e-2, 1e-1});
     if (!beyond) return;
     before = sign_of(beyond->value);
     from = beyond->s;
@@ -110,10 +120,16 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
   }
 }
 
+/// Coefficients last, as far as their terms have no poles.
 void search_functions(StepSearch& step, const EventKind& kind) {
   const bool of_user = &kind == &user_events;
-  for (std::size_t i = 0; i < step.watch.searched() && step.solved(); ++i)
-    if ((step.watch.type(i) == PointType::event) == of_user) search_function(step, kind, i);
+  for (const bool coefficients : {false, true}) {
+    for (std::size_t i = 0; i < step.watch.searched() && step.solved(); ++i) {
+      const PointType type = step.watch.type(i);
+      if ((type == PointType::event) == of_user && is_coefficient(type) == coefficients)
+        search_function(step, kind, i);
+    }
+  }
 }
 
 void pass_zero(const Event& event, const Passage& passage) {

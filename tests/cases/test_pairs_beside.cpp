@@ -78,6 +78,34 @@ z = "q*z - w - z^3"
 w = "z + q*w"
 )case" + curve_over("hopf", "q", 0.5, -1, 1);
 
+// Along the doublings at p = 0 the coefficient is 1 + g/q, as y = x^2/q follows: it vanishes at q = -g,
+// beside its pole at the fold-flip point q = 0.
+const std::string doublings_beside_pole = R"case(
+[model]
+kind = "map"
+[model.parameters]
+p = -0.5
+q = 0.5
+g = 0.01
+[model.equations]
+x = "-(1 + p)*x + g*x*y + x^3"
+y = "(1 - q)*y + x^2 - y^2"
+)case" + curve_over("period_doubling", "q", 0.5, -0.5, 1);
+
+// The same of Neimark-Sacker points.
+const std::string turning_beside_pole = R"case(
+[model]
+kind = "map"
+[model.parameters]
+p = -0.5
+q = 0.5
+g = 0.01
+[model.equations]
+x = "(1 + p)*(1 + g*z + x^2 + y^2)*(cos(1)*x - sin(1)*y)"
+y = "(1 + p)*(1 + g*z + x^2 + y^2)*(sin(1)*x + cos(1)*y)"
+z = "(1 - q)*z + x^2 + y^2 - z^2"
+)case" + curve_over("neimark_sacker", "q", 0.5, -0.5, 1);
+
 /// That a curve tells one point of this type, at this value.
 void check_one(const std::string& system, const std::string& set, PointType type,
                const std::string& parameter, double expected) {
@@ -98,6 +126,16 @@ TEST_CASE("Coefficients that vanish right behind a special point are told", "[cy
     const std::string del = fmt::format("del={}", aside);
     check_one(doublings_beside_one, del, PointType::generalized_period_doubling, "q", aside);
     check_one(equal_frequencies, del, PointType::generalized_hopf, "q", aside);
+  }
+}
+
+TEST_CASE("Coefficients that vanish beside a pole of theirs are told", "[cycles]") {
+  for (const double aside : {-0.05, -0.01, -0.0003, 0.0007, 0.02, 0.06}) {
+    const std::string g = fmt::format("g={}", -aside);
+    check_one(doublings_beside_pole, g, PointType::generalized_period_doubling, "q", aside);
+    check_one(turning_beside_pole, g, PointType::chenciner, "q", aside);
+    check_one(doublings_beside_pole, g, PointType::fold_flip, "q", 0);
+    check_one(turning_beside_pole, g, PointType::fold_neimark_sacker, "q", 0);
   }
 }
 
