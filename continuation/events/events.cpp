@@ -102,9 +102,12 @@ Zero StepSearch::turn(std::size_t which, int sign, bool changes, double from) {
               std::abs(*here) < plainly * fall * upper_;
   }
   if (!changes && !at_cusp) return {Zero::State::absent};
+  const bool at_branch_point = has(PointType::branch_point);
   const Zero zero = ZeroSearch(stepper, readings)
                         .first(which, sign, from, upper_,
-                               at_cusp ? std::numeric_limits<double>::infinity() : tolerances.located);
+                               at_cusp           ? std::numeric_limits<double>::infinity()
+                               : at_branch_point ? tolerances.just_passed
+                                                 : tolerances.located);
   return at_cusp && zero.state == Zero::State::absent ? Zero{Zero::State::found, upper_} : zero;
 }
 

@@ -34,7 +34,12 @@ Monitors::Monitors(const Problem& problem, Index parameter, std::vector<Index> t
 void Monitors::look(const CurvePoint& point, const Vector& scale, const Vector& slope,
                     std::vector<Monitor>& out) {
   out.clear();
-  const auto add = [&](double value) { out.push_back({value, rate(gradient_, parameter_, scale, slope)}); };
+  const Index n = problem_.size();
+  const auto add = [&](double value) {
+    const double reach = gradient_.unknowns.cwiseProduct(point.scale.head(n)).norm() / std::sqrt(n) +
+                         std::abs(gradient_.parameters(parameter_) * point.scale(n));
+    out.push_back({value, rate(gradient_, parameter_, scale, slope), reach});
+  };
   for (const Index which : tracked_) {
     add(problem_.observe(point.unknowns, point.parameters, point.regime, which, gradient_));
   }
@@ -60,9 +65,11 @@ double Monitors::roughness(const Step& step, double s, const std::vector<Monitor
     const Monitor& a = step.from[i];
     const Monitor& b = at_s[i];
     const double change = (i < tracked_.size() ? observed_[i].near(b.value, a.value) : b.value) - a.value;
-    const double size = i < tracked_.size() ? size_of(i, std::max(std::abs(a.value), std::abs(b.value))) : 1;
-    if (i < tracked_.size() && a.value * b.value > 0)
-      most = std::max(most, std::abs(change) / (limits.change * size));
+    const double size = i < tracked_.size() ? size_between(i, a, b) : 1;
+    // One that is gone may be that of a branch which crosses this one.
+    const double of_change = b.value == 0 && i < tracked_.size() ? size_of(i, a.value) : size;
+    if (i < tracked_.size() && a.value != 0 && a.value * b.value >= 0)
+      most = std::max(most, std::abs(change) / (limits.change * of_change));
     // The mean of the end slopes is to give the change, or else there is more between than these can tell.
     const double error = std::abs(change - 0.5 * s * (a.slope + b.slope));
     const double turned = 0.5 * s * (std::abs(a.slope) + std::abs(b.slope));

@@ -63,7 +63,8 @@ TEST_CASE("A point on the upper of three solutions begins a branch there, in ano
   REQUIRE(again.status == 0);
   const json start = first_of(summary(folder, "again"), 0, "start");
   REQUIRE(start.contains("state"));
-  CHECK(start["state"]["parameters"] == fold["state"]["parameters"]);
+  for (const auto& [name, value] : fold["state"]["parameters"].items())
+    CHECK_THAT(start["state"]["parameters"][name].get<double>(), WithinRel(value.get<double>(), 1e-14));
 }
 
 TEST_CASE("Points that are none are refused with those that there are", "[from_point]") {

@@ -32,6 +32,7 @@ class StepSearch {
   double chord() const { return stepper.step().chord.norm() * upper_ / stepper.step().distance; }
   /// Whether an event is known at the upper end, beyond which others do not count.
   bool ends_at_event() const { return !result_.events.empty(); }
+  bool has(PointType type) const;  ///< among the events there
 
   /// A reading at the upper end, of which `end` is that at the end of the whole step; 0 where it has none.
   double at_upper(std::size_t which, double end);
@@ -58,7 +59,6 @@ class StepSearch {
   bool solved() const { return result_.solved; }
 
  private:
-  bool has(PointType type) const;
   void note_jumps_at_folds();
 
   double upper_;

@@ -32,6 +32,13 @@ class Monitors {
     return std::max(observed_[observable].scale, std::abs(value));
   }
 
+  /// The same of a step: where it vanishes, no less than a small part of its reach.
+  double size_between(std::size_t observable, const Monitor& from, const Monitor& to) const {
+    constexpr double small = 1e-2;
+    return std::max(small * std::max(from.reach, to.reach),
+                    size_of(observable, std::max(std::abs(from.value), std::abs(to.value))));
+  }
+
   /// What a step may leave open.
   struct Limits {
     double change;   ///< of an observable, relative
