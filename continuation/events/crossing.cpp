@@ -95,10 +95,26 @@ bool CrossingSearch::search(bool may_leap) {
   const FirstZero found = first_zero(*from, *to, at, tolerances_.one_branch_point * step_.distance);
   if (found.kind == FirstZero::Kind::none) return true;
   if (may_leap && found.kind == FirstZero::Kind::change && leaps(found.before, found.behind)) return false;
+  if (passes_pole(found.before, found.behind)) return false;
   if (found.kind != FirstZero::Kind::unknown && locate(found.before, found.behind)) return true;
   // So near to where several eigenvalues vanish at once that no point is found, or signs are rounding.
   const bool is_near = found.behind.s - found.before.s <= widest * step_.distance;
   return is_near && locate(found.before, found.before);
+}
+
+/// Whether the determinant has its other sign behind a pole and not a zero, as conditions on special points
+/// have it where their borders no longer fit: on a shorter step these are renewed before.
+bool CrossingSearch::passes_pole(Node p, Node q) {
+  constexpr double large = 10;  // beside 1, as the determinant is at one of the step's ends
+  constexpr int enough = 8;     // halvings
+  const auto grow = [&] { return std::min(std::abs(p.value), std::abs(q.value)) > large; };
+  if (!(p.value * p.slope > 0) || !(q.value * q.slope < 0) || p.value * q.value > 0) return false;
+  for (int i = 0; i < enough && !grow(); ++i) {
+    const std::optional<Node> middle = determinant_at(0.5 * (p.s + q.s));
+    if (!middle) return false;
+    (middle->value * p.value > 0 ? p : q) = *middle;
+  }
+  return grow();
 }
 
 bool CrossingSearch::jumps() {

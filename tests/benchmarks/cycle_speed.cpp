@@ -2,7 +2,7 @@
 // that stay, with Floquet multipliers at each point. Over the time of as many evaluations of the field with
 // its derivatives as there are Gauss points, and of as many dense factors of 12 unknowns as there are
 // intervals, one after the other in the same run. On the same mesh, with derivatives, tolerances of 1e-7 and
-// two corrections a point, AUTO-07p takes 1.4 to 1.5 times as long.
+// two corrections a point, AUTO-07p takes 1.7 to 2.2 times as long.
 //
 // usage: cycle_speed
 

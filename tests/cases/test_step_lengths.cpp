@@ -313,3 +313,27 @@ TEST_CASE("Further slips that end soon after the motion turns back are told in w
     CHECK(count["further_slip_backwards"] == 2);
   }
 }
+
+TEST_CASE("Conditions on folds that no longer fit are no branch points", "[cycles]") {
+  // Where borders are at right angles to null vectors the determinant has a pole. At the place of the default
+  // step the Jacobian of {f, f_u q, q^T q - 1} has no singular value below 0.1.
+  for (const double step : {0.2, 0.1, 0.05, 0.02}) {
+    INFO(step);
+    const auto all = traced_of(R"case([model]
+parameters = { a = 0, b = 0 }
+[model.equations]
+x = "-0.615*x+0.457*y+0.062*z+0.223*a+0.778*a*x-1.293*a*y+1.012*a*z-1.435*b-0.113*b*x+0.427*b*z+0.168*x*y-0.509*x*z+0.222*y*y+0.011*y*z-0.404*z*z-0.183*x^3"
+y = "0.812*x-0.631*y-0.487*z+1.154*a+0.407*a*y+1.455*a*z-0.385*b-2.652*b*x-1.544*b*y-0.179*b*z+0.555*x*z+0.277*y*y+0.224*y*z-1.216*z*z-0.005*y^3-0.101*x*x*x-0.276*x*y*z-0.021*y*y*z-0.182*z*z*z"
+z = "0.380*x-0.242*y-0.029*z+1.220*a-1.379*a*x+0.433*a*y+0.011*b+0.174*x*x-0.081*x*z+0.399*y*z-0.227*z^3-0.127*x*x*z-0.037*x*z*z-0.002*z*z*z"
+[branch]
+curve = "fold"
+parameters = ["a", "b"]
+window = [-1, 1]
+from = -1
+to = 1
+)case" + with_steps(step));
+    REQUIRE(all.size() == 2);
+    CHECK(all_values_at(all, PointType::branch_point, "a").empty());
+    CHECK(all_values_at(all, PointType::cusp, "a").size() == 2);
+  }
+}

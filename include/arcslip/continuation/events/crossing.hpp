@@ -44,6 +44,7 @@ class CrossingSearch {
   using Values = std::map<double, std::optional<double>>;  // by places
 
   std::optional<Node> determinant_at(double s);
+  bool passes_pole(Node p, Node q);
   [[nodiscard]] bool probe_between(double s);
   [[nodiscard]] bool narrow(Node& before, Node& behind, double& s, double radius);
   [[nodiscard]] bool locate(Node before, Node behind);
