@@ -107,25 +107,6 @@ bool Tape::uses(Index variable) const {
          });
 }
 
-void Tape::go_forward(const double* x, double* slots) const {
-  std::copy(values_.constants.begin(), values_.constants.end(), std::copy_n(x, values_.variables, slots));
-  double* value = slots + values_.first();
-  for (const Operation& one : values_.operations)
-    *value++ = value_of(one, slots[one.left], slots[right_of(one)]);
-}
-
-bool Tape::take_values(const double* slots, double* values) const {
-  for (std::size_t i = 0; i < values_.results.size(); ++i) values[i] = slots[values_.results[i]];
-  return are_finite(values, values_.results.size());
-}
-
-bool Tape::evaluate(const double* x, double* values) const {
-  Scratch scratch(values_.slots());
-  double* const at = scratch.take(values_.slots());
-  go_forward(x, at);
-  return take_values(at, values);
-}
-
 /// Of several points side by side.
 template <std::size_t lanes>
 bool Tape::evaluate_lanes(const double* x, double* values, double* gradients) const {
@@ -154,6 +135,8 @@ bool Tape::evaluate_lanes(const double* x, double* values, double* gradients) co
   }
   return are_finite(gradients, lanes * count);
 }
+
+bool Tape::evaluate(const double* x, double* values) const { return evaluate_lanes<1>(x, values, nullptr); }
 
 bool Tape::evaluate(const double* x, double* values, double* gradients) const {
   return evaluate_lanes<1>(x, values, gradients);
@@ -186,7 +169,8 @@ bool Tape::second(const double* x, const double* w, const double* dx, double* ou
   double* const right_rate = scratch.take(count);
   double* const adjoint = scratch.zeros(values_.slots());
   double* const adjoint_rate = scratch.zeros(values_.slots());
-  go_forward(x, at);
+  std::copy_n(x, values_.variables, at);
+  Lanes<1>(at).set_all(static_cast<std::size_t>(values_.variables), values_);
   std::copy_n(dx, values_.variables, rate);
   for (std::size_t i = 0; i < count; ++i) {
     const Operation& one = values_.operations[i];

@@ -97,8 +97,6 @@ class Tape {
   template <std::size_t lanes>
   bool evaluate_lanes(const double* x, double* values, double* gradients) const;
   void find_gradient();
-  void go_forward(const double* x, double* slots) const;
-  bool take_values(const double* slots, double* values) const;
 
   OperationList values_;
   OperationList gradient_;   // results x variables, of the places of the values and of slopes
