@@ -35,13 +35,11 @@ void Monitors::look(const CurvePoint& point, const Vector& scale, const Vector& 
                     std::vector<Monitor>& out) {
   out.clear();
   const Index n = problem_.size();
-  const auto add = [&](double value) {
-    const double reach = gradient_.unknowns.cwiseProduct(point.scale.head(n)).norm() / std::sqrt(n) +
-                         std::abs(gradient_.parameters(parameter_) * point.scale(n));
-    out.push_back({value, rate(gradient_, parameter_, scale, slope), reach});
-  };
+  const auto add = [&](double value) { out.push_back({value, rate(gradient_, parameter_, scale, slope)}); };
   for (const Index which : tracked_) {
     add(problem_.observe(point.unknowns, point.parameters, point.regime, which, gradient_));
+    out.back().reach = gradient_.unknowns.cwiseProduct(point.scale.head(n)).norm() / std::sqrt(n) +
+                       std::abs(gradient_.parameters(parameter_) * point.scale(n));
   }
   for (int b = 0; b < problem_.border_count(point.regime); ++b) {
     add(problem_.border(point.unknowns, point.parameters, point.regime, b, &gradient_));
@@ -64,12 +62,14 @@ double Monitors::roughness(const Step& step, double s, const std::vector<Monitor
   for (std::size_t i = 0; i < step.from.size(); ++i) {
     const Monitor& a = step.from[i];
     const Monitor& b = at_s[i];
-    const double change = (i < tracked_.size() ? observed_[i].near(b.value, a.value) : b.value) - a.value;
-    const double size = i < tracked_.size() ? size_between(i, a, b) : 1;
-    // One that is gone may be that of a branch which crosses this one.
-    const double of_change = b.value == 0 && i < tracked_.size() ? size_of(i, a.value) : size;
-    if (i < tracked_.size() && a.value != 0 && a.value * b.value >= 0)
+    const bool is_tracked = i < tracked_.size();
+    const double change = (is_tracked ? observed_[i].near(b.value, a.value) : b.value) - a.value;
+    const double size = is_tracked ? size_between(i, a, b) : 1;
+    if (is_tracked && a.value != 0 && a.value * b.value >= 0) {
+      // One that is gone may be that of a branch which crosses this one.
+      const double of_change = b.value == 0 ? size_of(i, a.value) : size;
       most = std::max(most, std::abs(change) / (limits.change * of_change));
+    }
     // The mean of the end slopes is to give the change, or else there is more between than these can tell.
     const double error = std::abs(change - 0.5 * s * (a.slope + b.slope));
     const double turned = 0.5 * s * (std::abs(a.slope) + std::abs(b.slope));

@@ -95,7 +95,7 @@ void Stepper::restore(const Progress& progress) {
   }
   step_.here = progress.here;
   bend_ = progress.bend;
-  at_here_ = progress.monitors;
+  at_here_ = progress.monitors;  // without their reach
   monitors_.look(step_.here, step_.here.scale, step_.here.tangent, step_.to);
   for (std::size_t i = 0; i < at_here_.size(); ++i) at_here_[i].reach = step_.to[i].reach;
   step_.past = progress.past;

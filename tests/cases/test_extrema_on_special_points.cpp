@@ -1,8 +1,9 @@
 // Observables that are extremal exactly where a branch has a special point, at which both are told.
 
+#include <random>
+
 #include "case_runs.hpp"
 #include "cycle_cases.hpp"
-#include "random_systems.hpp"
 
 namespace {
 
