@@ -1,6 +1,7 @@
 // The modes of a part of a whole ring whose sectors are not alike, in those of the equal sectors.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -174,31 +175,82 @@ Matrix RingPart::changed_rows(const RealModes& all) const {
   return rows;
 }
 
+namespace {
+
+/// Values of a symmetric matrix, the least first, and their vectors.
+Pencil<Matrix> axes_of(const Matrix& matrix) {
+  auto axes = pencil(matrix, Matrix::Identity(matrix.rows(), matrix.cols()));
+  if (!axes) throw std::invalid_argument("what mistuning and cuts leave of the ring was not found");
+  return std::move(*axes);
+}
+
+/// Whether D + B^T X B, D definite, is so as well, by C = B D^-1 B^T: -X^-1 - C has as many negative values
+/// as -X^-1 (Sylvester's law of inertia). `margin` is that part of X which may be missing, < 0, or is kept.
+bool stays_definite(const Matrix& compliance, const Matrix& change, double margin) {
+  const Pencil<Matrix> axes = axes_of(change);
+  const double least = 1e-12 * axes.values.cwiseAbs().maxCoeff();  // what is below is rounding, and no change
+  const Vector sizes = axes.values.cwiseAbs().unaryExpr([=](double size) { return size > least ? size : 0; });
+  const Matrix roots = axes.vectors * sizes.cwiseSqrt().asDiagonal();
+  Matrix rest = -(roots.transpose() * compliance * roots);
+  rest.diagonal() += axes.values.unaryExpr([](double value) { return value > 0 ? -1.0 : 1.0; });
+  return (axes_of(rest).values.array() < margin).count() == (axes.values.array() > 0).count();
+}
+
+}  // namespace
+
+/// K and M of all changes, one after the other, in those of the modes.
+std::array<Matrix, 2> RingPart::changes() const {
+  const Index size = std::ssize(rows_);
+  std::array<Matrix, 2> all{Matrix::Zero(size, size), Matrix::Zero(size, size)};
+  const double rate = given_.circular_frequency * given_.circular_frequency;
+  Index at = 0;
+  for (const RingChange& change : given_.changes) {
+    const Index own = std::ssize(change.of);
+    all[0].block(at, at, own, own) = change.stiffness;
+    if (change.mass.size() > 0) all[1].block(at, at, own, own) = rate * change.mass;
+    at += own;
+  }
+  return all;
+}
+
+void RingPart::check_changes() const {
+  if (!rows_.empty() && is_modal_) check_changes(real_modes());
+}
+
+/// Rigid motions are held by a millionth of the least elastic stiffness.
+void RingPart::check_changes(const RealModes& all) const {
+  constexpr double rounding = 1e-12;     // of the largest square of a frequency, and of a mass
+  constexpr double of_stiffness = 1e-6;  // modes of beams have errors of 1e-8
+  const Matrix rows = changed_rows(all);
+  const auto [stiffness, mass] = changes();
+  if (!stays_definite(rows * rows.transpose(), mass, rounding))
+    throw std::invalid_argument("mistuning and cuts leave a part of the ring without mass");
+  const Vector squares = Vector::Map(all.squares.data(), rows.cols());
+  const double rigid = rounding * squares.maxCoeff();
+  const double elastic =
+      squares.unaryExpr([=](double one) { return one > rigid ? one : squares.maxCoeff(); }).minCoeff();
+  const Vector held = (squares.array().max(0) + 1e-6 * elastic).inverse();
+  if (!stays_definite(rows * held.asDiagonal() * rows.transpose(), stiffness, -of_stiffness))
+    throw std::invalid_argument("mistuning and cuts leave a part of the ring less than no stiffness");
+}
+
 /// Squares of the frequencies of the changed whole, and its modes in those of the equal sectors.
 RingPart::ChangedModes RingPart::with_changes(const RealModes& all) const {
   constexpr double rounding = 1e-12;  // of the largest square of a frequency
   const Index size = std::ssize(all.squares);
   ChangedModes changed{Vector::Map(all.squares.data(), size), Matrix::Identity(size, size)};
   if (rows_.empty() || size == 0) return changed;
+  check_changes(all);
   const Matrix rows = changed_rows(all);
-  const double rate = given_.circular_frequency * given_.circular_frequency;
+  const auto [more_stiffness, more_mass] = changes();
   Matrix stiffness = changed.squares.asDiagonal();
+  stiffness.noalias() += rows.transpose() * more_stiffness * rows;
   Matrix mass = changed.shapes;
-  Index at = 0;
-  for (const RingChange& change : given_.changes) {
-    const auto own = rows.middleRows(at, std::ssize(change.of));
-    stiffness.noalias() += own.transpose() * change.stiffness * own;
-    if (change.mass.size() > 0) mass.noalias() += rate * (own.transpose() * change.mass * own);
-    at += own.rows();
-  }
-  if (!is_definite(mass, rounding))
-    throw std::invalid_argument("mistuning and cuts leave a part of the ring without mass");
-  const double least = -rounding * std::max(changed.squares.maxCoeff(), stiffness.diagonal().maxCoeff());
+  mass.noalias() += rows.transpose() * more_mass * rows;
   auto modes = pencil(stiffness, mass);
   if (!modes) throw std::invalid_argument("the modes of the ring with mistuning and cuts were not found");
-  if (modes->values(0) < least)
-    throw std::invalid_argument("mistuning and cuts leave a part of the ring less than no stiffness");
-  changed.squares = modes->values.unaryExpr([&](double one) { return one > -least ? one : 0; });
+  const double least = rounding * std::max(changed.squares.maxCoeff(), stiffness.diagonal().maxCoeff());
+  changed.squares = modes->values.unaryExpr([&](double one) { return one > least ? one : 0; });
   changed.shapes = std::move(modes->vectors);
   return changed;
 }

@@ -49,9 +49,12 @@ class RingPart {
     Matrix stiffness_speed2;
   };
 
+  /// Throws std::invalid_argument where changes take more mass or stiffness than there is, as far as waves
+  /// are told by modes.
+  void check_changes() const;
+
   /// The modes of the changed whole at rest, real ones; those of rigid motions with the frequency 0. Throws
-  /// std::invalid_argument where changes leave no modes that damping keeps apart: beside modal damping,
-  /// without mass or with less than no stiffness.
+  /// std::invalid_argument where changes leave no modes that damping keeps apart, and as `check_changes`.
   Changed changed_modes() const;
 
  private:
@@ -80,6 +83,8 @@ class RingPart {
     Matrix shapes;   ///< D x D: in the modes of the equal sectors
   };
   ChangedModes with_changes(const RealModes& all) const;
+  std::array<Matrix, 2> changes() const;
+  void check_changes(const RealModes& all) const;
 
   /// What a number may be in a row of: itself and its slopes, by eta and by the speed.
   enum Slope : Index { itself, along_eta, along_speed };

@@ -192,6 +192,16 @@ std::shared_ptr<const RingPart> WholeRing::part(const SystemParameters& system, 
   return std::make_shared<const RingPart>(std::move(given));
 }
 
+void WholeRing::check_changes(const SystemParameters& system) const {
+  SystemParameters resting = system;
+  resting.rotation = {};
+  for (const bool is_base : {true, false}) {
+    const auto is_own = [=](const RingChange& change) { return change.on_base == is_base; };
+    if (std::any_of(make_.changes.begin(), make_.changes.end(), is_own))
+      part(resting, is_base)->check_changes();
+  }
+}
+
 ContactSystem WholeRing::wave(const SystemParameters& system) const {
   if (system.tells_lag)
     throw std::invalid_argument("the whole ring tells no lag, as its load acts on motions that differ");

@@ -196,8 +196,10 @@ void read_ring(const TomlDocument& document, const Replacements& replacements, c
   if (settings.amplification) ring.equal_peak = std::numeric_limits<double>::quiet_NaN();
   read_changes(document, system, settings.pattern, ring);
   system.contacts = contacts.of(system.contacts, settings.sectors);
-  system.structures = std::make_shared<const WholeRing>(std::move(ring));
+  const auto whole = std::make_shared<const WholeRing>(std::move(ring));
+  system.structures = whole;
   try {
+    whole->check_changes(system);
     system.structures->check(system.wave_number, system.elements);
     static_cast<void>(system.structures->wave(system));
   } catch (const std::invalid_argument& error) {

@@ -112,6 +112,42 @@ TEST_CASE("A node of the damper keeps an element on one side at least", "[ring s
   }
 }
 
+TEST_CASE("A link takes no more from a ring than there is", "[ring section]") {
+  const TemporaryFolder folder;
+  const std::string header = "%%MatrixMarket matrix coordinate real symmetric\n";
+  folder.write("k.mtx", header + "2 2 3\n1 1 1.3\n2 1 -0.3\n2 2 0.3\n");
+  folder.write("m.mtx", header + "2 2 1\n1 1 1\n");
+  const auto read = [&](const std::string& changed) {
+    read_case(
+        folder.write("case.toml",
+                     "[system]\nmodel = \"sector\"\nsectors = 4\nwave_number = 1\ncontact_stiffness = 0.5\n"
+                     "preload = 0.5\ndamping = { base = 1e-2 }\n[system.base]\nmass = \"m.mtx\"\n"
+                     "stiffness = \"k.mtx\"\nleft = [1]\nright = [2]\ncontact = [1]\n"
+                     "load = { dof = [1], value = [1.0] }\n[ring]\n" +
+                         changed + "[branch]\nparameter = \"eta\"\nfrom = 0.05\nto = 0.5\n"));
+  };
+  const std::string cut = "[[ring.cut]]\npart = \"base\"\nafter = [2]\ndofs = [1, 1]\nstiffness = ";
+  // Springs of 1 to ground, links of 0.3: the ring gives way where the link alone is as soft as all else.
+  Matrix ring = Matrix::Identity(4, 4);
+  for (Index i = 0; i < 4; ++i) {
+    const Index next = (i + 1) % 4;
+    const Vector stretch = Vector::Unit(4, next) - Vector::Unit(4, i);
+    ring += 0.3 * stretch * stretch.transpose();
+  }
+  const Vector stretch = Vector::Unit(4, 2) - Vector::Unit(4, 1);
+  const double most = 1 / stretch.dot(ring.partialPivLu().solve(stretch));
+  CHECK_NOTHROW(read(cut + "0.3\n"));
+  CHECK_NOTHROW(read(cut + fmt::format("{}\n", most * (1 - 1e-5))));
+  const auto none =
+      ContainsSubstring("ring: mistuning and cuts leave a part of the ring less than no stiffness");
+  CHECK_THROWS_WITH(read(cut + fmt::format("{}\n", most * (1 + 1e-5))), none);
+  CHECK_THROWS_WITH(read(cut + "5\n"), none);
+  const std::string mistuned = "[[ring.mistuning]]\npart = \"base\"\ndofs = [1]\nfactors = [1, 0.1, 1, 1]\n";
+  CHECK_NOTHROW(read(mistuned + "stiffness = 0.5\nmass = 0.5\n"));
+  CHECK_THROWS_WITH(read(mistuned + "stiffness = 5\n"), none);
+  CHECK_THROWS_WITH(read(mistuned + "mass = 1.2\n"), ContainsSubstring("without mass"));
+}
+
 TEST_CASE("A point load on a ring that is its own mirror image moves both sides alike", "[ring section]") {
   // of beams, whose rotations the wave N/2 would load if it ran one way
   const SystemParameters system =

@@ -114,6 +114,9 @@ class WholeRing final : public Structures {
   /// the equal sectors, as they turn.
   std::vector<double> landmarks(const SystemParameters& system) const;
 
+  /// Throws std::invalid_argument where changes take more than there is at rest, as far as modes tell it.
+  void check_changes(const SystemParameters& system) const;
+
   ContactSystem wave(const SystemParameters& system) const override;
   /// Of sectors that turn, told by modes. Throws std::invalid_argument.
   TurningWholeModes turning(const SystemParameters& system) const;
