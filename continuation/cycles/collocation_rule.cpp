@@ -104,14 +104,14 @@ void CollocationRule::fill() {
   Vector value;
   Vector derivative;
   for (Index i = 0; i < m; ++i) {
-    at(points_(i), value, derivative);
+    at(points_(i), value, &derivative);
     values_.row(i) = value.transpose();
     derivatives_.row(i) = derivative.transpose();
   }
   const Index looks = waves_ > 0 ? 4 * m + 1 : 17;
   looks_.resize(looks, m + 1);
   for (Index i = 0; i < looks; ++i) {
-    at(static_cast<double>(i) / static_cast<double>(looks - 1), value, derivative);
+    at(static_cast<double>(i) / static_cast<double>(looks - 1), value);
     looks_.row(i) = value.transpose();
   }
 }
@@ -121,10 +121,10 @@ Matrix CollocationRule::coefficients(const Matrix& values) const {
   return (values.leftCols(degree_) - growth * points_.transpose()) * modes_;
 }
 
-void CollocationRule::at(double s, Vector& value, Vector& derivative) const {
+void CollocationRule::at(double s, Vector& value, Vector* derivative) const {
   const Index count = degree_ + 1;
   value.resize(count);
-  derivative.resize(count);
+  if (derivative != nullptr) derivative->resize(count);
   if (waves_ > 0) {
     Matrix basis = Matrix::Zero(degree_, 2);  // and its derivative
     basis(0, 0) = 1;
@@ -139,7 +139,7 @@ void CollocationRule::at(double s, Vector& value, Vector& derivative) const {
     weights.bottomRows(1) -= points_.transpose() * weights.topRows(degree_);
     weights.row(0) -= weights.row(degree_);
     value = weights.col(0);
-    derivative = weights.col(1);
+    if (derivative != nullptr) *derivative = weights.col(1);
     return;
   }
   for (Index k = 0; k < count; ++k) {
@@ -148,11 +148,11 @@ void CollocationRule::at(double s, Vector& value, Vector& derivative) const {
     double slope = 0;
     for (Index l = 0; l < count; ++l) {
       if (l == k) continue;
-      slope = slope * (s - nodes_(l)) + product;
+      if (derivative != nullptr) slope = slope * (s - nodes_(l)) + product;
       product *= s - nodes_(l);
     }
     value(k) = product;
-    derivative(k) = slope;
+    if (derivative != nullptr) (*derivative)(k) = slope;
   }
 }
 

@@ -49,7 +49,7 @@ double product(const OrbitFrame& frame, const Matrix& a, const Matrix& b) {
   return sum;
 }
 
-double length(const OrbitFrame& frame, const Matrix& a) { return std::sqrt(product(frame, a, a)); }
+double size_of(const OrbitFrame& frame, const Matrix& a) { return std::sqrt(product(frame, a, a)); }
 
 /// Whether what keeps an orbit apart is little beside how far it goes.
 bool is_little(const OrbitFrame& frame, double apart, const Eigen::Ref<const Matrix>& orbit) {
@@ -68,12 +68,14 @@ CollocationRule rule_for(const Field& field, int degree) {
   return CollocationRule(degree, field.sparse() ? CollocationPoints::radau : CollocationPoints::gauss);
 }
 
-const OrbitFrame& OrbitProblem::frame(const Regime& regime) const {
+const std::shared_ptr<const OrbitFrame>& OrbitProblem::shared_frame(const Regime& regime) const {
   std::size_t number = 0;
   for (Index digit = frame_digits; digit-- > 0;)
     number = number * Regime::states + static_cast<std::size_t>(regime[digit]);
-  return *frames_.at(number);
+  return frames_.at(number);
 }
+
+const OrbitFrame& OrbitProblem::frame(const Regime& regime) const { return *shared_frame(regime); }
 
 Regime OrbitProblem::last_frame() const {
   Regime regime;
@@ -88,7 +90,7 @@ Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const
   Vector scale(orbit.rows());
   Vector unused(p.size());
   field_->scale(orbit.cwiseAbs().rowwise().maxCoeff(), p, scale, unused);
-  OrbitFrame frame{mesh, scale, scale.cwiseInverse(), {}, ranges(orbit, scale), {}, 0, {}, {}, {}};
+  OrbitFrame frame{mesh, scale, scale.cwiseInverse(), {}, ranges(orbit, scale), {}, 0, {}, {}, {}, 0};
   const Vector s = mesh.gauss_points();
   frame.points = mesh.find(s);
   frame.opposite = mesh.find((s.array() < 0.5).select(s.array() + 0.5, s.array() - 0.5));
@@ -96,7 +98,8 @@ Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const
   if (has_duration_) frame.phase = phase_weights(mesh, orbit, scale);
   if (has_duration_) frame.phase_value = frame.phase.dot(orbit.reshaped());
   frame.apart = part_apart(frame, orbit);
-  most_apart_ = std::max(most_apart_, length(frame, frame.apart));
+  frame.size_apart = size_of(frame, frame.apart);
+  most_apart_ = std::max(most_apart_, frame.size_apart);
   if (!(most_apart_ > hardly * frame.range.cwiseQuotient(scale).norm())) frame.apart.resize(0, 0);
   frames_.push_back(std::make_shared<const OrbitFrame>(std::move(frame)));
   return last_frame();
@@ -118,31 +121,37 @@ Vector OrbitProblem::end_scale(const OrbitFrame& frame, const Matrix& orbit, con
   return (change.array() > 0).select(change, 1);
 }
 
+const OrbitProblem::Apart& OrbitProblem::apart_at(const Vector& u, const Regime& regime) const {
+  thread_local Apart last;
+  const std::shared_ptr<const OrbitFrame>& at = shared_frame(regime);
+  if (last.frame == at && last.unknowns == u) return last;
+  const Matrix part = part_apart(*at, orbit(u));
+  last = {at, u, size_of(*at, part), 0};
+  if (at->apart.size() > 0) last.along = product(*at, part, at->apart);
+  return last;
+}
+
 double OrbitProblem::apart(const Vector& u, const Regime& regime) const {
-  const OrbitFrame& at = frame(regime);
-  if (at.apart.size() == 0) return 1;
-  const Matrix part = part_apart(at, orbit(u));
-  return std::copysign(length(at, part), product(at, part, at.apart)) / most_apart_;
+  if (frame(regime).apart.size() == 0) return 1;
+  const Apart& here = apart_at(u, regime);
+  return std::copysign(here.size, here.along) / most_apart_;
 }
 
 double OrbitProblem::note_apart(const Vector& u, const Regime& regime) const {
   const OrbitFrame& at = frame(regime);
   if (at.apart.size() == 0) return 1;
-  const Matrix part = part_apart(at, orbit(u));
-  const double here = length(at, part);
-  if (is_little(at, here, orbit(u))) most_apart_ = std::max(most_apart_, here);
-  return product(at, part, at.apart) / (here * length(at, at.apart));
+  const Apart& here = apart_at(u, regime);
+  if (is_little(at, here.size, orbit(u))) most_apart_ = std::max(most_apart_, here.size);
+  return here.along / (here.size * at.size_apart);
 }
 
 bool OrbitProblem::is_nearly_simpler(const Vector& u, const Regime& regime) const {
-  const OrbitFrame& at = frame(regime);
-  return is_little(at, length(at, part_apart(at, orbit(u))), orbit(u));
+  return is_little(frame(regime), apart_at(u, regime).size, orbit(u));
 }
 
 double OrbitProblem::rounding_apart(const Vector& u, const Regime& regime) const {
-  const OrbitFrame& at = frame(regime);
-  const double size = (at.in_units.asDiagonal() * orbit(u)).cwiseAbs().maxCoeff();
-  return std::numeric_limits<double>::epsilon() * size / length(at, part_apart(at, orbit(u)));
+  const double size = (frame(regime).in_units.asDiagonal() * orbit(u)).cwiseAbs().maxCoeff();
+  return std::numeric_limits<double>::epsilon() * size / apart_at(u, regime).size;
 }
 
 std::string OrbitProblem::describe(const Regime& regime) const {

@@ -35,7 +35,7 @@ void OrbitMesh::at(const Matrix& values, double s, Vector& value, Vector* veloci
   const Index j = interval(s);
   Vector weights;
   Vector slopes;
-  rule_.at((s - borders_(j)) / length(j), weights, slopes);
+  rule_.at((s - borders_(j)) / length(j), weights, velocity == nullptr ? nullptr : &slopes);
   const auto within = values.middleCols(j * rule_.degree(), rule_.degree() + 1);
   value.noalias() = within * weights;
   if (velocity != nullptr) velocity->noalias() = within * (slopes / length(j));
@@ -52,10 +52,9 @@ Vector OrbitMesh::gauss_points() const {
 OrbitPlaces OrbitMesh::find(const Vector& s) const {
   OrbitPlaces places{s, {}, Matrix(rule_.degree() + 1, s.size())};
   Vector weights;
-  Vector slopes;
   for (Index k = 0; k < s.size(); ++k) {
     const Index j = interval(s(k));
-    rule_.at((s(k) - borders_(j)) / length(j), weights, slopes);
+    rule_.at((s(k) - borders_(j)) / length(j), weights);
     places.weights.col(k) = weights;
     places.first.push_back(j * rule_.degree());
   }

@@ -44,7 +44,7 @@ Extremum extremum(const OrbitProblem& problem, const Vector& u, const Regime& re
   const auto look = [&](Index interval) {  // finds the zero of the slope about the highest of many values
     const auto within = values.segment(interval * m, m + 1);
     const auto slope = [&](double s) {
-      rule.at(s, weights, slopes);
+      rule.at(s, weights, &slopes);
       return within.dot(slopes);
     };
     const double last = static_cast<double>(rule.looks().rows() - 1);
@@ -53,7 +53,7 @@ Extremum extremum(const OrbitProblem& problem, const Vector& u, const Regime& re
     const double least = goes_on ? -1 : 0;
     const double at = summit(slope, std::max(least, (static_cast<double>(top) - 1) / last),
                              std::min(1 - least, (static_cast<double>(top) + 1) / last));
-    rule.at(at, weights, slopes);
+    rule.at(at, weights);
     const double value = within.dot(weights);
     if (value > best.value) best = {value, interval * m, weights};
   };

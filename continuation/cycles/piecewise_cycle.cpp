@@ -277,8 +277,7 @@ double PiecewiseCycle::early_meeting(const Vector& u, const Vector& p, const Reg
   gradient->unknowns.setZero();
   const Index interval = mesh.interval(place);
   Vector weights;
-  Vector slopes;
-  mesh.rule().at((place - mesh.borders()(interval)) / mesh.length(interval), weights, slopes);
+  mesh.rule().at((place - mesh.borders()(interval)) / mesh.length(interval), weights);
   for (Index i = 0; i < weights.size(); ++i) {
     const Index node = interval * degree() + i;
     gradient->unknowns.segment(field().size() * node + n_ * piece, n_) -=

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <utility>
 #include <vector>
 
+#include "alike_parts.hpp"
 #include "arcslip/continuation/linear/blocks_side_by_side.hpp"
 #include "arcslip/continuation/linear/bordered_solver.hpp"
 #include "arcslip/continuation/linear/front_plan.hpp"
@@ -13,10 +13,6 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr Index lanes = BlocksSideBySide::lanes;
-constexpr std::size_t least_blocks = 8;
-constexpr std::size_t most_rows = 32;  // of one: more are fronts of their own
-
-std::size_t slot(int i) { return static_cast<std::size_t>(i); }
 
 /// Where an entry is among the values; -1 where the pattern lacks it.
 int place_in(const SparseMatrix& pattern, Index row, Index column) {
@@ -27,69 +23,11 @@ int place_in(const SparseMatrix& pattern, Index row, Index column) {
   return found != end && *found == row ? static_cast<int>(found - rows) : -1;
 }
 
-/// Rows with the same columns.
-struct Block {
-  std::vector<int> rows;
-  std::vector<int> inner;  // columns that no other rows have, but those that stay
-  std::vector<int> outer;  // the others
-};
-
-/// Which rows and columns of a matrix go into blocks of one size, and which are left.
-struct Parts {
-  std::vector<Block> blocks;
-  std::vector<int> staying;  // rows
-  std::vector<int> others;   // rows that are in no block
-  std::vector<int> columns;  // that are left
-};
-
-using RowsByColumns = std::map<std::vector<int>, std::vector<int>>;
-
-RowsByColumns rows_by_columns(const SparseMatrix& pattern, Index borders, std::vector<int>& staying) {
-  std::vector<std::vector<int>> columns(static_cast<std::size_t>(pattern.rows()));
-  for (int j = 0; j < pattern.cols(); ++j) {
-    for (SparseMatrix::InnerIterator entry(pattern, j); entry; ++entry)
-      columns[static_cast<std::size_t>(entry.row())].push_back(j);
-  }
-  const Index most = most_of_a_row(pattern);
-  RowsByColumns result;
-  for (int i = 0; i < pattern.rows(); ++i) {
-    const bool stays = i >= pattern.rows() - borders || std::ssize(columns[slot(i)]) > most;
-    (stays ? staying : result[columns[slot(i)]]).push_back(i);
-  }
-  return result;
-}
-
-Parts find_parts(const SparseMatrix& pattern, Index borders) {
-  Parts parts;
-  const RowsByColumns all = rows_by_columns(pattern, borders, parts.staying);
-  std::vector<int> uses(static_cast<std::size_t>(pattern.cols()), 0);
-  for (const auto& [columns, rows] : all) {
-    for (const int column : columns) ++uses[slot(column)];
-  }
-  using Size = std::vector<std::size_t>;
-  std::map<Size, std::vector<Block>> by_size;
-  for (const auto& [columns, rows] : all) {
-    Block block{rows, {}, {}};
-    for (const int column : columns) (uses[slot(column)] == 1 ? block.inner : block.outer).push_back(column);
-    const bool serves = !block.inner.empty() && block.inner.size() < rows.size() && rows.size() <= most_rows;
-    if (serves) by_size[{rows.size(), block.inner.size(), block.outer.size()}].push_back(block);
-  }
-  for (auto& [size, blocks] : by_size) {
-    if (blocks.size() >= least_blocks && blocks.size() > parts.blocks.size())
-      parts.blocks = std::move(blocks);
-  }
-  std::vector<char> is_row_left(static_cast<std::size_t>(pattern.rows()), 1);
-  std::vector<char> is_column_left(static_cast<std::size_t>(pattern.cols()), 1);
-  for (const int row : parts.staying) is_row_left[slot(row)] = 0;
-  for (const Block& block : parts.blocks) {
-    for (const int row : block.rows) is_row_left[slot(row)] = 0;
-    for (const int column : block.inner) is_column_left[slot(column)] = 0;
-  }
-  for (int i = 0; i < pattern.rows(); ++i) {
-    if (is_row_left[slot(i)] != 0) parts.others.push_back(i);
-    if (is_column_left[slot(i)] != 0) parts.columns.push_back(i);
-  }
-  return parts;
+/// Where numbers below `size` are in a list of such; -1 where it lacks them.
+Eigen::VectorX<int> places_of(const Eigen::VectorX<int>& list, Index size) {
+  Eigen::VectorX<int> places = Eigen::VectorX<int>::Constant(size, -1);
+  for (Index k = 0; k < list.size(); ++k) places(list(k)) = static_cast<int>(k);
+  return places;
 }
 
 /// The same numbers of all blocks, those of `lanes` side by side: of the last one again where there are
@@ -107,30 +45,42 @@ class Table {
   Eigen::MatrixX<int> entries_;
 };
 
+/// As many entries from each of these places on.
+inline void put_side_by_side(const double* values, const int* firsts, Index count, double* __restrict out) {
+  for (Index l = 0; l < lanes; ++l) {
+    const double* const from = values + firsts[l];
+    for (Index i = 0; i < count; ++i) out[i * lanes + l] = from[i];
+  }
+}
+
 class AlikeFactors final : public SparseFactors {
  public:
-  AlikeFactors(const SparseMatrix& pattern, const Parts& parts)
+  AlikeFactors(const SparseMatrix& pattern, const AlikeParts& parts)
       : blocks_(std::ssize(parts.blocks)),
         pivots_(std::ssize(parts.blocks.front().inner)),
         left_rows_(std::ssize(parts.blocks.front().rows) - pivots_),
         outer_(std::ssize(parts.blocks.front().outer)),
         staying_(std::ssize(parts.staying)),
         height_(pivots_ + left_rows_ + staying_),
-        rows_(blocks_, pivots_ + left_rows_),
+        first_rows_(blocks_, 1),
         inner_columns_(blocks_, pivots_),
         outer_columns_(blocks_, outer_),
-        sources_(blocks_, height_ * (pivots_ + outer_)),
-        targets_(blocks_, (height_ - pivots_) * outer_),
+        sources_(blocks_, pivots_ + outer_),
+        staying_sources_(blocks_, staying_ * pivots_),
+        targets_(blocks_, outer_),
+        staying_targets_(blocks_, staying_ * outer_),
         batches_(static_cast<std::size_t>((blocks_ + lanes - 1) / lanes),
                  BlocksSideBySide(height_, pivots_ + outer_, pivots_, staying_)),
-        row_scales_(rows_.of(0).size(), std::ssize(batches_)),
+        row_scales_((height_ - staying_) * lanes, std::ssize(batches_)),
         vectors_(height_ * lanes, std::ssize(batches_)),
         left_{batches_, blocks_, left_rows_, pivots_, Eigen::MatrixX<int>(outer_, blocks_)},
         behind_(outer_ * lanes),
         rest_vector_(std::ssize(parts.columns)) {
     set_orders(parts);
     build_rest(pattern, parts);
-    rest_factors_ = make_frontal_factors(rest_, staying_, std::numeric_limits<double>::infinity());
+    make_rest_factors();
+    find_kept(pattern);
+    fill_tables(pattern, parts);
   }
 
   bool is_made() const { return rest_factors_ != nullptr; }
@@ -178,9 +128,8 @@ class AlikeFactors final : public SparseFactors {
     for (Index i = 0; i < staying_; ++i) staying(i) = x(staying_rows_(i));
     for (Index b = 0; b < std::ssize(batches_); ++b) {
       auto y = vectors_.col(b);
-      const auto rows = rows_.of(b);
-      const auto scale = row_scales_.col(b);
-      for (Index k = 0; k < rows.size(); ++k) y(k) = x(rows(k)) * scale(k);
+      put_side_by_side(x.data(), first_rows_.of(b).data(), height_ - staying_, y.data());
+      y.head(row_scales_.rows()).array() *= row_scales_.col(b).array();
       y.tail(staying_ * lanes).setZero();
       batches_[static_cast<std::size_t>(b)].forward(y.data());
       for (Index lane = 0; lane < lanes_of(b); ++lane) {
@@ -227,9 +176,11 @@ class AlikeFactors final : public SparseFactors {
         for (Index i = 0; i < staying_; ++i) y((pivots_ + left_rows_ + i) * lanes + lane) = staying(i);
       }
       batches_[static_cast<std::size_t>(b)].back_transposed(y.data());
-      const auto rows = rows_.of(b);
-      const auto scale = row_scales_.col(b);
-      for (Index k = 0; k < rows.size(); ++k) x(rows(k)) = y(k) * scale(k);
+      y.head(row_scales_.rows()).array() *= row_scales_.col(b).array();
+      for (Index lane = 0; lane < lanes; ++lane) {
+        const int first = first_rows_.of(b)(lane);
+        for (Index i = 0; i < height_ - staying_; ++i) x(first + i) = y(i * lanes + lane);
+      }
     }
   }
 
@@ -238,7 +189,7 @@ class AlikeFactors final : public SparseFactors {
   /// Of the rows that are left of a block, among the rest's: behind the others, before those that stay.
   Index first_left(Index block) const { return other_rows_.size() + block * left_rows_; }
 
-  void set_orders(const Parts& parts) {
+  void set_orders(const AlikeParts& parts) {
     const auto copy = [](const std::vector<int>& from) {
       return Eigen::VectorX<int>(Eigen::Map<const Eigen::VectorX<int>>(from.data(), std::ssize(from)));
     };
@@ -247,12 +198,12 @@ class AlikeFactors final : public SparseFactors {
     columns_ = copy(parts.columns);
     std::vector<int> row_order;
     std::vector<int> column_order;
-    for (const Block& block : parts.blocks) {
+    for (const AlikeBlock& block : parts.blocks) {
       row_order.insert(row_order.end(), block.rows.begin(), block.rows.begin() + pivots_);
       column_order.insert(column_order.end(), block.inner.begin(), block.inner.end());
     }
     row_order.insert(row_order.end(), parts.others.begin(), parts.others.end());
-    for (const Block& block : parts.blocks)
+    for (const AlikeBlock& block : parts.blocks)
       row_order.insert(row_order.end(), block.rows.begin() + pivots_, block.rows.end());
     row_order.insert(row_order.end(), parts.staying.begin(), parts.staying.end());
     column_order.insert(column_order.end(), parts.columns.begin(), parts.columns.end());
@@ -261,12 +212,10 @@ class AlikeFactors final : public SparseFactors {
   }
 
   /// What is left: of other rows what they have, of blocks all outer columns, and full rows that stay.
-  void build_rest(const SparseMatrix& pattern, const Parts& parts) {
+  void build_rest(const SparseMatrix& pattern, const AlikeParts& parts) {
     const Index size = columns_.size();
-    Eigen::VectorX<int> row_of = Eigen::VectorX<int>::Constant(pattern.rows(), -1);
-    Eigen::VectorX<int> column_of = row_of;
-    for (Index k = 0; k < other_rows_.size(); ++k) row_of(other_rows_(k)) = static_cast<int>(k);
-    for (Index k = 0; k < size; ++k) column_of(columns_(k)) = static_cast<int>(k);
+    const Eigen::VectorX<int> row_of = places_of(other_rows_, pattern.rows());
+    const Eigen::VectorX<int> column_of = places_of(columns_, pattern.cols());
     std::vector<std::vector<int>> rows(static_cast<std::size_t>(size));
     for (Index k = 0; k < size; ++k) {
       for (SparseMatrix::InnerIterator entry(pattern, columns_(k)); entry; ++entry) {
@@ -276,7 +225,7 @@ class AlikeFactors final : public SparseFactors {
     for (Index b = 0; b < blocks_; ++b) {
       for (const int column : parts.blocks[static_cast<std::size_t>(b)].outer) {
         for (Index i = 0; i < left_rows_; ++i)
-          rows[slot(column_of(column))].push_back(static_cast<int>(first_left(b) + i));
+          rows[static_cast<std::size_t>(column_of(column))].push_back(static_cast<int>(first_left(b) + i));
       }
     }
     rest_.resize(size, size);
@@ -288,23 +237,37 @@ class AlikeFactors final : public SparseFactors {
       for (const int row : own) rest_.insertBack(row, k) = 0;
     }
     rest_.finalize();
-    for (Index k = 0; k < staying_; ++k) row_of(staying_rows_(k)) = static_cast<int>(size - staying_ + k);
-    for (Index k = 0; k < size; ++k) {
-      const int begin = pattern.outerIndexPtr()[columns_(k)];
+  }
+
+  void make_rest_factors() {
+    if (const AlikeParts pairs = find_alike_parts(rest_, staying_, true); !pairs.blocks.empty()) {
+      rest_ = with_full_blocks(rest_, pairs.blocks);
+      auto factors = std::make_unique<AlikeFactors>(rest_, pairs);
+      if (factors->is_made()) rest_factors_ = std::move(factors);
+    }
+    if (rest_factors_ == nullptr)
+      rest_factors_ = make_frontal_factors(rest_, staying_, std::numeric_limits<double>::infinity());
+  }
+
+  /// Entries of other rows, and of those that stay in columns that are left.
+  void find_kept(const SparseMatrix& pattern) {
+    Eigen::VectorX<int> row_of = places_of(other_rows_, pattern.rows());
+    for (Index k = 0; k < staying_; ++k)
+      row_of(staying_rows_(k)) = static_cast<int>(columns_.size() - staying_ + k);
+    for (Index k = 0; k < columns_.size(); ++k) {
       const int end = pattern.outerIndexPtr()[columns_(k) + 1];
-      for (int from = begin; from < end; ++from) {
+      for (int from = pattern.outerIndexPtr()[columns_(k)]; from < end; ++from) {
         const int row = row_of(pattern.innerIndexPtr()[from]);
         if (row >= 0) kept_.emplace_back(from, place_in(rest_, row, k));
       }
     }
-    fill_tables(pattern, parts, column_of);
   }
 
-  void fill_tables(const SparseMatrix& pattern, const Parts& parts, const Eigen::VectorX<int>& column_of) {
+  void fill_tables(const SparseMatrix& pattern, const AlikeParts& parts) {
+    const Eigen::VectorX<int> column_of = places_of(columns_, pattern.cols());
     for (Index b = 0; b < blocks_; ++b) {
-      const Block& block = parts.blocks[static_cast<std::size_t>(b)];
-      std::vector<int> rows = block.rows;
-      rows.insert(rows.end(), parts.staying.begin(), parts.staying.end());
+      const AlikeBlock& block = parts.blocks[static_cast<std::size_t>(b)];
+      first_rows_.set(b, 0, block.rows.front());
       std::vector<int> columns = block.inner;
       columns.insert(columns.end(), block.outer.begin(), block.outer.end());
       for (Index j = 0; j < std::ssize(columns); ++j) {
@@ -315,16 +278,14 @@ class AlikeFactors final : public SparseFactors {
           outer_columns_.set(b, j - pivots_, column_of(column));
           left_.columns(j - pivots_, b) = column;
         }
-        for (Index i = 0; i < height_; ++i) {
-          const int row = rows[static_cast<std::size_t>(i)];
-          const bool stays = i >= pivots_ + left_rows_;
-          if (j == 0 && !stays) rows_.set(b, i, row);
-          sources_.set(b, j * height_ + i, stays && j >= pivots_ ? -1 : place_in(pattern, row, column));
-          if (i < pivots_ || j < pivots_) continue;
-          const Index left = stays ? columns_.size() - height_ + i : first_left(b) + i - pivots_;
-          targets_.set(b, (j - pivots_) * (height_ - pivots_) + i - pivots_,
-                       place_in(rest_, left, column_of(column)));
-        }
+        sources_.set(b, j, place_in(pattern, block.rows.front(), column));
+        for (Index i = 0; i < staying_ && j < pivots_; ++i)
+          staying_sources_.set(b, j * staying_ + i, place_in(pattern, staying_rows_(i), column));
+        if (j < pivots_) continue;
+        targets_.set(b, j - pivots_, place_in(rest_, first_left(b), column_of(column)));
+        for (Index i = 0; i < staying_; ++i)
+          staying_targets_.set(b, (j - pivots_) * staying_ + i,
+                               place_in(rest_, columns_.size() - staying_ + i, column_of(column)));
       }
     }
   }
@@ -332,24 +293,31 @@ class AlikeFactors final : public SparseFactors {
   /// Rows that stay have their entries of outer columns in the rest.
   void take(const double* __restrict values, BlocksSideBySide& batch, Index b) {
     const int* sources = sources_.of(b).data();
-    for (Index j = 0; j < pivots_ + outer_; ++j, sources += height_ * lanes) {
-      double* __restrict const column = batch.at(0, j);
-      const Index count = (j < pivots_ ? height_ : height_ - staying_) * lanes;
-      for (Index k = 0; k < count; ++k) column[k] = values[sources[k]];
-      std::fill(column + count, column + height_ * lanes, 0.0);
+    const int* staying = staying_sources_.of(b).data();
+    for (Index j = 0; j < pivots_ + outer_; ++j, sources += lanes) {
+      put_side_by_side(values, sources, height_ - staying_, batch.at(0, j));
+      double* const last = batch.at(height_ - staying_, j);
+      for (Index k = 0; k < staying_ * lanes; ++k) {
+        const int source = j < pivots_ ? *staying++ : -1;
+        last[k] = source < 0 ? 0 : values[source];
+      }
     }
   }
 
   /// What is left of blocks goes into the rest.
   void leave(const BlocksSideBySide& batch, Index b) {
     double* const rest = rest_.valuePtr();
-    const auto targets = targets_.of(b);
-    for (Index j = 0; j < outer_; ++j) {
+    const int* targets = targets_.of(b).data();
+    const int* staying = staying_targets_.of(b).data();
+    for (Index j = 0; j < outer_; ++j, targets += lanes) {
       const double* const column = batch.at(pivots_, pivots_ + j);
-      const int* const to = targets.data() + j * (height_ - pivots_) * lanes;
-      for (Index i = 0; i < height_ - pivots_; ++i) {
-        for (Index lane = 0; lane < lanes_of(b); ++lane)
-          rest[to[i * lanes + lane]] += column[i * lanes + lane];
+      for (Index lane = 0; lane < lanes_of(b); ++lane) {
+        double* const to = rest + targets[lane];
+        for (Index i = 0; i < left_rows_; ++i) to[i] = column[i * lanes + lane];
+      }
+      const double* last = column + left_rows_ * lanes;
+      for (Index i = 0; i < staying_; ++i, last += lanes, staying += lanes) {
+        for (Index lane = 0; lane < lanes_of(b); ++lane) rest[staying[lane]] += last[lane];
       }
     }
   }
@@ -364,11 +332,13 @@ class AlikeFactors final : public SparseFactors {
   Eigen::VectorX<int> staying_rows_;
   Eigen::VectorX<int> columns_;            // of the rest
   std::vector<std::pair<int, int>> kept_;  // entries of the matrix, and where they are among the rest's
-  Table rows_;                             // of blocks
+  Table first_rows_;                       // of blocks
   Table inner_columns_;
   Table outer_columns_;  // among the rest's
-  Table sources_;        // of their entries, or -1
-  Table targets_;        // of what is left
+  Table sources_;        // of each column's first entry
+  Table staying_sources_;
+  Table targets_;  // of what is left, of each column's first entry
+  Table staying_targets_;
   std::vector<BlocksSideBySide> batches_;
   Matrix row_scales_;  // of those that do not stay
   Matrix vectors_;     // of all their rows
@@ -384,7 +354,7 @@ class AlikeFactors final : public SparseFactors {
 }  // namespace
 
 std::unique_ptr<SparseFactors> make_alike_factors(const SparseMatrix& pattern, Index borders) {
-  const Parts parts = find_parts(pattern, borders);
+  const AlikeParts parts = find_alike_parts(pattern, borders, false);
   if (parts.blocks.empty()) return nullptr;
   auto factors = std::make_unique<AlikeFactors>(pattern, parts);
   if (!factors->is_made()) return nullptr;

@@ -5,8 +5,9 @@
 
 namespace arcslip::continuation {
 
-/// The row of each matrix that is to give pivot k comes there.
+/// The row of each matrix that is to give pivot k comes there: another one where it is much better.
 void BlocksSideBySide::exchange(Index k) {
+  constexpr double enough = 0.5;  // of the largest entry
   double largest[lanes];
   double row[lanes];
   const double* entry = at(k, k);
@@ -21,7 +22,8 @@ void BlocksSideBySide::exchange(Index k) {
     }
   }
   for (Index l = 0; l < lanes; ++l) {
-    const auto best = static_cast<Index>(row[l]);
+    const bool stays = std::abs(at(k, k)[l]) >= enough * largest[l];
+    const auto best = stays ? k : static_cast<Index>(row[l]);
     exchanged_[static_cast<std::size_t>(k * lanes + l)] = best;
     if (best == k) continue;
     for (Index j = k; j < columns_; ++j) std::swap(at(k, j)[l], at(best, j)[l]);
@@ -48,11 +50,11 @@ ARCSLIP_WIDE bool BlocksSideBySide::scale_rows(double* __restrict scale) {
 }
 
 ARCSLIP_WIDE void BlocksSideBySide::eliminate() {
-  double inverse[lanes];
   double factor[lanes];
   for (Index k = 0; k < pivots_; ++k) {
     exchange(k);
     const double* const column = at(k, k);
+    double* const inverse = inverses_.data() + k * lanes;
     for (Index l = 0; l < lanes; ++l) inverse[l] = 1 / column[l];
     for (Index j = k + 1; j < columns_; ++j) {
       double* const other = at(k, j);
@@ -62,14 +64,28 @@ ARCSLIP_WIDE void BlocksSideBySide::eliminate() {
   }
 }
 
+ARCSLIP_WIDE double BlocksSideBySide::largest() const {
+  double largest[lanes] = {};
+  for (Index j = 0; j < columns_; ++j) {
+    const double* const column = at(0, j);
+    const Index end = std::min(j, pivots_);
+    for (Index i = 0; i < end; ++i) {
+      for (Index l = 0; l < lanes; ++l) {
+        const double size = std::abs(column[i * lanes + l]);
+        largest[l] = size > largest[l] ? size : largest[l];
+      }
+    }
+  }
+  return *std::max_element(largest, largest + lanes);
+}
+
 ARCSLIP_WIDE void BlocksSideBySide::forward(double* y) const {
   double factor[lanes];
   for (Index k = 0; k < pivots_; ++k) {
     exchange(k, y);
     double* const own = y + k * lanes;
-    const double* const column = at(k, k);
-    for (Index l = 0; l < lanes; ++l) factor[l] = own[l] / column[l];
-    subtract(rows_ - k - 1, own + lanes, column + lanes, factor);
+    for (Index l = 0; l < lanes; ++l) factor[l] = own[l] * inverse(k)[l];
+    subtract(rows_ - k - 1, own + lanes, at(k, k) + lanes, factor);
   }
 }
 
@@ -77,7 +93,7 @@ ARCSLIP_WIDE void BlocksSideBySide::back(double* y, const double* behind) const 
   for (Index j = pivots_; j < columns_; ++j, behind += lanes) subtract(pivots_, y, at(0, j), behind);
   for (Index k = pivots_; k-- > 0;) {
     double* const own = y + k * lanes;
-    for (Index l = 0; l < lanes; ++l) own[l] /= at(k, k)[l];
+    multiply(own, inverse(k));
     subtract(k, y, at(0, k), own);
   }
 }

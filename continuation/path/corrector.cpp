@@ -151,6 +151,7 @@ template <class Solve>
 int Corrector::shorten(CurvePoint& point, const CurvePoint& origin, double last, double rate,
                        const Solve& solve) {
   constexpr int most = 6;
+  constexpr double enough = 0.1;  // of the tolerance: one more here takes much less than a factorization
   for (int i = 0; i < most; ++i) {
     if (options_.watch) options_.watch();
     if (!continuation::evaluate(problem_, point.unknowns, point.parameters, point.regime,
@@ -160,7 +161,7 @@ int Corrector::shorten(CurvePoint& point, const CurvePoint& origin, double last,
     if (!(length < shortness * last)) return i;
     add_correction(point, origin);
     if (i > 0 || rate == 0) rate = length / last;
-    if (rate * length <= 0.5 * options_.tolerance) return i + 1;
+    if (rate * length <= enough * options_.tolerance) return i + 1;
     last = length;
   }
   return most;

@@ -40,8 +40,8 @@ class CollocationRule {
   const Vector& highest() const { return highest_; }  ///< m + 1: of the m-th derivative; of polynomials
   double product() const { return product_; }         ///< largest |prod (s - node)| on the interval
 
-  /// Weights of the values at the nodes, m + 1, in the value at s and in the derivative there.
-  void at(double s, Vector& value, Vector& derivative) const;
+  /// Weights of the values at the nodes, m + 1, in the value at s and, if wanted, in the derivative there.
+  void at(double s, Vector& value, Vector* derivative = nullptr) const;
 
   /// Of trigonometric polynomials by their values, n x (m + 1), beside what grows linearly: the mean, then
   /// the coefficients of cos(2 pi s), sin(2 pi s), cos(4 pi s), ..., n x m.

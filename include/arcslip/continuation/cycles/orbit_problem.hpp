@@ -47,7 +47,8 @@ struct OrbitFrame {
   double phase_value = 0;  ///< that of the condition for the frame's own orbit
   OrbitPlaces points;      ///< the Gauss points, m N
   OrbitPlaces opposite;    ///< those half of the way ahead of these
-  Matrix apart;  ///< n x m N, what keeps the orbit apart from simpler ones; empty where nothing does
+  Matrix apart;           ///< n x m N, what keeps the orbit apart from simpler ones; empty where nothing does
+  double size_apart = 0;  ///< of that, the root of its mean square
 };
 
 /// What the errors of an orbit are relative to on a mesh that was made for another one: the range of that,
@@ -176,9 +177,19 @@ class OrbitProblem : public Problem {
 
  private:
   struct Scratch;
+  /// Of what keeps an orbit apart.
+  struct Apart {
+    std::shared_ptr<const OrbitFrame> frame;
+    Vector unknowns;
+    double size = 0;
+    double along = 0;  // how much of it is that of the frame
+  };
   static constexpr Index frame_digits = 4;
   static constexpr Index fours = 4;
 
+  const std::shared_ptr<const OrbitFrame>& shared_frame(const Regime& regime) const;
+  /// Found once where it is asked for again.
+  const Apart& apart_at(const Vector& u, const Regime& regime) const;
   Vector end_scale(const OrbitFrame& frame, const Matrix& orbit, const Vector& p) const;
   /// How many of the conditions one unknown at an end enters.
   Index end_entries() const { return field_->sparse() ? 1 : field_->size(); }

@@ -12,8 +12,9 @@
 namespace arcslip::continuation {
 
 /// Their entries side by side, column by column. The first columns, `pivots` of them, are eliminated from all
-/// others, by rows which stand before the last `staying` ones. Pivots are the largest entries of columns,
-/// each matrix's own. Vectors have their entries side by side as well.
+/// others, by rows which stand before the last `staying` ones. Pivots are at
+/// least half as large as any entry of their columns, each matrix's own rows. Vectors have their entries side
+/// by side as well.
 class BlocksSideBySide {
  public:
   static constexpr Index lanes = 4;
@@ -25,6 +26,7 @@ class BlocksSideBySide {
         pivots_(pivots),
         staying_(staying),
         values_(static_cast<std::size_t>(rows * columns * lanes)),
+        inverses_(static_cast<std::size_t>(pivots * lanes)),
         exchanged_(static_cast<std::size_t>(pivots * lanes)) {}
 
   /// An entry of the first one, before that of the others.
@@ -44,8 +46,7 @@ class BlocksSideBySide {
     for (Index j = pivots_; j < columns_; ++j) {
       for (Index i = pivots_; i-- > pivots_ - count;) {
         double* const own = at(i, j);
-        const double* const pivot = at(i, i);
-        for (Index l = 0; l < lanes; ++l) own[l] /= pivot[l];
+        multiply(own, inverse(i));
         const Index above = i - (pivots_ - count);
         subtract(above, at(i - above, j), at(i - above, i), own);
       }
@@ -64,7 +65,7 @@ class BlocksSideBySide {
     for (Index k = 0; k < pivots_; ++k) {
       double* const own = y + k * lanes;
       subtract_products(k, own, at(0, k), y);
-      for (Index l = 0; l < lanes; ++l) own[l] /= at(k, k)[l];
+      multiply(own, inverse(k));
     }
     for (Index j = pivots_; j < columns_; ++j, behind += lanes)
       subtract_products(pivots_, behind, at(0, j), y);
@@ -75,7 +76,7 @@ class BlocksSideBySide {
     for (Index k = pivots_; k-- > 0;) {
       double sum[lanes] = {};
       subtract_products(rows_ - k - 1, sum, at(k, k) + lanes, y + (k + 1) * lanes);
-      for (Index l = 0; l < lanes; ++l) y[k * lanes + l] += sum[l] / at(k, k)[l];
+      for (Index l = 0; l < lanes; ++l) y[k * lanes + l] += sum[l] * inverse(k)[l];
       exchange(k, y);
     }
   }
@@ -91,19 +92,17 @@ class BlocksSideBySide {
   }
 
   /// The largest entry that the elimination has left in the rows of pivots.
-  double largest() const {
-    double largest[lanes] = {};
-    for (Index j = 0; j < columns_; ++j) {
-      const Index end = std::min(j, pivots_);
-      for (Index i = 0; i < end; ++i) {
-        for (Index l = 0; l < lanes; ++l) largest[l] = std::max(largest[l], std::abs(at(i, j)[l]));
-      }
-    }
-    return *std::max_element(largest, largest + lanes);
-  }
+  double largest() const;
 
  private:
   void exchange(Index k);
+
+  /// Of the pivots.
+  const double* inverse(Index k) const { return inverses_.data() + k * lanes; }
+
+  static void multiply(double* x, const double* factor) {
+    for (Index l = 0; l < lanes; ++l) x[l] *= factor[l];
+  }
 
   /// x_i <- x_i - a_i b
   static void subtract(Index count, double* __restrict x, const double* __restrict a, const double* b) {
@@ -136,6 +135,7 @@ class BlocksSideBySide {
   Index pivots_;
   Index staying_;
   std::vector<double> values_;
+  std::vector<double> inverses_;
   std::vector<Index> exchanged_;  // the row that came to each pivot's place
 };
 

@@ -52,8 +52,8 @@ std::unique_ptr<SparseFactors> make_klu_factors(SparseMatrix& pattern, std::vect
 std::unique_ptr<SparseFactors> make_frontal_factors(const SparseMatrix& pattern, Index borders, double most);
 
 /// By blocks of rows that have the same columns, as those of one interval of an orbit have: the columns that
-/// each has alone are eliminated in several of them side by side, and what is left by fronts. Null where the
-/// blocks are few or large.
+/// each has alone are eliminated in several of them side by side, then those that two neighbours have alone,
+/// as long as there are many of these, and what is left by fronts. Null where the blocks are few or large.
 std::unique_ptr<SparseFactors> make_alike_factors(const SparseMatrix& pattern, Index borders);
 
 }  // namespace arcslip::continuation
