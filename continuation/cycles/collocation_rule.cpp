@@ -142,17 +142,30 @@ void CollocationRule::at(double s, Vector& value, Vector* derivative) const {
     if (derivative != nullptr) *derivative = weights.col(1);
     return;
   }
+  if (derivative == nullptr) {  // products of the factors before and behind each node's
+    double before = 1;
+    for (Index k = 0; k < count; ++k) {
+      value(k) = barycentric_(k) * before;
+      before *= s - nodes_(k);
+    }
+    double behind = 1;
+    for (Index k = count; k-- > 0;) {
+      value(k) *= behind;
+      behind *= s - nodes_(k);
+    }
+    return;
+  }
   for (Index k = 0; k < count; ++k) {
     // product and its derivative, factor by factor
     double product = barycentric_(k);
     double slope = 0;
     for (Index l = 0; l < count; ++l) {
       if (l == k) continue;
-      if (derivative != nullptr) slope = slope * (s - nodes_(l)) + product;
+      slope = slope * (s - nodes_(l)) + product;
       product *= s - nodes_(l);
     }
     value(k) = product;
-    if (derivative != nullptr) (*derivative)(k) = slope;
+    (*derivative)(k) = slope;
   }
 }
 

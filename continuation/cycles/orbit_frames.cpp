@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 
 #include "arcslip/continuation/cycles/orbit_problem.hpp"
 
@@ -19,22 +20,29 @@ Vector phase_weights(const OrbitMesh& mesh, const Eigen::Ref<const Matrix>& orbi
   Vector weights = Vector::Zero(orbit.size());
   const double* const derivatives = rule.derivatives().data();
   const double* const shares = rule.values().data();
+  const Vector inverse = scale.cwiseInverse();
   double square = 0;
-  for (Index j = 0; j < mesh.intervals(); ++j) {
-    const double* const values = orbit.col(j * m).data();
-    double* const own = weights.data() + j * m * n;
-    for (Index r = 0; r < n; ++r) {
-      const double unit = 1 / scale(r);
-      for (Index i = 0; i < m; ++i) {
-        double change = 0;  // over the interval
-        for (Index k = 0; k <= m; ++k) change += values[k * n + r] * derivatives[k * m + i];
-        change *= unit;
-        square += rule.weights()(i) * change * change / mesh.length(j);
-        change *= rule.weights()(i) * unit;
-        for (Index k = 0; k <= m; ++k) own[k * n + r] += change * shares[k * m + i];
+  const auto add_intervals = [&](auto degree) {
+    for (Index j = 0; j < mesh.intervals(); ++j) {
+      const double* const values = orbit.col(j * degree).data();
+      double* const own = weights.data() + j * degree * n;
+      double changes = 0;
+      for (Index r = 0; r < n; ++r) {
+        for (Index i = 0; i < degree; ++i) {
+          double change = 0;  // over the interval
+          for (Index k = 0; k <= degree; ++k) change += values[k * n + r] * derivatives[k * degree + i];
+          change *= inverse(r);
+          const double weighted = rule.weights()(i) * change;
+          changes += weighted * change;
+          for (Index k = 0; k <= degree; ++k)
+            own[k * n + r] += weighted * inverse(r) * shares[k * degree + i];
+        }
       }
+      square += changes / mesh.length(j);
     }
-  }
+  };
+  using Usual = std::integral_constant<Index, 4>;  // known, it takes much less time
+  m == Usual() ? add_intervals(Usual()) : add_intervals(m);
   return weights / square;
 }
 

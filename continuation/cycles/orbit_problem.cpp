@@ -118,34 +118,38 @@ void OrbitProblem::change_with_parameters(double duration, const Vector& p, Scra
   }
 }
 
+/// What stands together of its points is filled in at once.
 void OrbitProblem::fill_interval(const OrbitFrame& frame, double duration, Index interval, Index from,
                                  Scratch& scratch, const Evaluation& out) const {
   const Index n = field_->size();
+  const Index count = n * degree();
+  const Index first = interval * count + n;
   const double h = frame.mesh.length(interval);
-  const double* const in_units = frame.in_units.data();
-  for (Index i = 0; i < degree(); ++i) {
-    const Index first = (interval * degree() + i + 1) * n;
-    const double* const velocity = scratch.velocities.col(from + i).data();
-    if (out.residual != nullptr) {
-      const double* const change = scratch.changes.col(from + i).data();
-      double* const residual = out.residual->data() + first;
-      for (Index r = 0; r < n; ++r) residual[r] = (change[r] - h * duration * velocity[r]) * in_units[r];
-    }
-    if (out.parameter_jacobian != nullptr) {
-      const auto by_parameters = scratch.by_parameters_at(from + i);
-      for (Index c = 0; c < by_parameters.cols(); ++c) {
-        const double* const entries = by_parameters.col(c).data();
-        double* const column = out.parameter_jacobian->col(c).data() + first;
-        for (Index r = 0; r < n; ++r) column[r] = -h * entries[r] * in_units[r];
+  const double* const in_units = scratch.in_units.data();
+  const double* const velocity = scratch.velocities.col(from).data();
+  if (out.residual != nullptr) {
+    const double factor = h * duration;
+    const double* const change = scratch.changes.col(from).data();
+    double* __restrict const residual = out.residual->data() + first;
+    for (Index i = 0; i < count; ++i) residual[i] = (change[i] - factor * velocity[i]) * in_units[i];
+  }
+  if (out.parameter_jacobian != nullptr) {
+    const Index parameters = out.parameter_jacobian->cols();
+    for (Index c = 0; c < parameters; ++c) {
+      double* __restrict to = out.parameter_jacobian->col(c).data() + first;
+      for (Index i = 0; i < degree(); ++i) {
+        const double* const entries = scratch.by_parameters.col((from + i) * parameters + c).data();
+        for (Index r = 0; r < n; ++r) *to++ = -h * entries[r] * in_units[r];
       }
     }
-    if (out.sparse_jacobian == nullptr || !has_duration_) continue;
-    double* const block =
-        out.sparse_jacobian->valuePtr() + out.sparse_jacobian->outerIndexPtr()[size() - 1] + first - n;
-    for (Index r = 0; r < n; ++r) block[r] = -h * velocity[r] * in_units[r];
   }
-  if (out.sparse_jacobian != nullptr)
-    fill_blocks(frame, -h * duration, interval, from, scratch, *out.sparse_jacobian);
+  if (out.sparse_jacobian == nullptr) return;
+  SparseMatrix& jacobian = *out.sparse_jacobian;
+  if (has_duration_) {
+    double* __restrict const column = jacobian.valuePtr() + jacobian.outerIndexPtr()[size() - 1] + first - n;
+    for (Index i = 0; i < count; ++i) column[i] = -h * velocity[i] * in_units[i];
+  }
+  fill_blocks(frame, -h * duration, interval, from, scratch, jacobian);
 }
 
 /// Each node's columns hold multiples of all points' blocks, one below the other, and the diagonal's of
@@ -240,6 +244,7 @@ bool OrbitProblem::evaluate(const Vector& u, const Vector& p, const Regime& regi
     *out.sparse_jacobian = pattern_;
   const bool derivatives = out.sparse_jacobian != nullptr || out.parameter_jacobian != nullptr;
   Scratch& scratch = Scratch::of(*this, p.size());
+  scratch.in_units = at.in_units.replicate(degree(), 1);
   for (Index first = 0; first < intervals(); first += scratch.together) {
     if (!at_points(at, u, p, length, first, derivatives, scratch)) return false;
     if (out.parameter_jacobian != nullptr) change_with_parameters(length, p, scratch);

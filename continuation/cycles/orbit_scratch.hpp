@@ -37,6 +37,7 @@ struct OrbitProblem::Scratch {
   Matrix by_parameters;
   Matrix by_time;                                // of a periodic field
   Vector blocks;                                 // of an interval's points, see fill_blocks
+  Vector in_units;                               // of these points, that of the frame for each
   std::vector<SparseMatrix> sparse_by_unknowns;  // of a sparse field, in place of the others
 
  private:
