@@ -97,14 +97,12 @@ double CycleProblem::growth_of_areas(const OrbitFrame& frame, const SparseMatrix
   const auto end = static_cast<int>(n * nodes());
   double sum = 0;
   for (int column = 0; column < end; ++column) {
-    int first = jacobian.outerIndexPtr()[column];  // of one or two intervals, point by point, n rows each
-    while (rows[first] < n) ++first;
-    int last = jacobian.outerIndexPtr()[column + 1];
-    while (rows[last - 1] >= end) --last;
     double all = 0;
-    const double* entry = jacobian.valuePtr() + first + column % n;
-    for (int from = first; from < last; from += n * static_cast<int>(weights.size())) {
-      for (Index point = 0; point < weights.size(); ++point, entry += n) all += weights(point) * *entry;
+    Index point = 0;  // of an interval: a node between two has the points of both
+    for (int k = jacobian.outerIndexPtr()[column]; k < jacobian.outerIndexPtr()[column + 1]; ++k) {
+      if (rows[k] < n || rows[k] >= end || (rows[k] - column) % n != 0) continue;
+      all += weights(point) * jacobian.valuePtr()[k];
+      point = point + 1 < weights.size() ? point + 1 : 0;
     }
     sum -= all / frame.in_units(column % n);
   }

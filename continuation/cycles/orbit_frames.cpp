@@ -132,7 +132,7 @@ Vector OrbitProblem::end_scale(const OrbitFrame& frame, const Matrix& orbit, con
 const OrbitProblem::Apart& OrbitProblem::apart_at(const Vector& u, const Regime& regime) const {
   thread_local Apart last;
   const std::shared_ptr<const OrbitFrame>& at = shared_frame(regime);
-  if (last.frame == at && last.unknowns == u) return last;
+  if (last.frame == at && last.unknowns.size() == u.size() && last.unknowns == u) return last;
   const Matrix part = part_apart(*at, orbit(u));
   last = {at, u, size_of(*at, part), 0};
   if (at->apart.size() > 0) last.along = product(*at, part, at->apart);
