@@ -21,9 +21,9 @@ namespace {
 /// A sparse problem with its Jacobian as a full matrix.
 class Filled : public Problem {
  public:
-  explicit Filled(Index points) : sparse_(points) {}
-  Index size() const override { return sparse_.size(); }
-  std::vector<std::string> parameter_names() const override { return sparse_.parameter_names(); }
+  explicit Filled(std::shared_ptr<const Problem> sparse) : sparse_(std::move(sparse)) {}
+  Index size() const override { return sparse_->size(); }
+  std::vector<std::string> parameter_names() const override { return sparse_->parameter_names(); }
   bool is_equilibrium() const override { return true; }
   bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
                 const Evaluation& out) const override {
@@ -31,13 +31,35 @@ class Filled : public Problem {
     Evaluation wanted = out;
     wanted.jacobian = nullptr;
     if (out.jacobian != nullptr) wanted.sparse_jacobian = &jacobian;
-    if (!sparse_.evaluate(u, p, regime, wanted)) return false;
+    if (!sparse_->evaluate(u, p, regime, wanted)) return false;
     if (out.jacobian != nullptr) *out.jacobian = jacobian;
     return true;
   }
 
  private:
-  BrusselatorLine sparse_;
+  std::shared_ptr<const Problem> sparse_;
+};
+
+/// Van der Pol's flow x' = y, y' = mu (1 - x^2) y - x, without the entry that is 0.
+class SparsePlane : public Problem {
+ public:
+  Index size() const override { return 2; }
+  std::vector<std::string> parameter_names() const override { return {"mu"}; }
+  bool is_equilibrium() const override { return true; }
+  bool sparse() const override { return true; }
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
+    const double x = u(0);
+    const double y = u(1);
+    if (out.residual != nullptr) *out.residual << y, p(0) * (1 - x * x) * y - x;
+    if (out.parameter_jacobian != nullptr) *out.parameter_jacobian << 0, (1 - x * x) * y;
+    if (out.sparse_jacobian == nullptr) return true;
+    const std::vector<Eigen::Triplet<double>> entries{
+        {0, 1, 1}, {1, 0, -2 * p(0) * x * y - 1}, {1, 1, p(0) * (1 - x * x)}};
+    out.sparse_jacobian->resize(2, 2);
+    out.sparse_jacobian->setFromTriplets(entries.begin(), entries.end());
+    return true;
+  }
 };
 
 /// The first Hopf point over the length.
@@ -139,7 +161,7 @@ TEST_CASE("Cycles of a sparse field are those of the same dense one, and their m
     return found;
   };
   const CycleBranch sparse = traced(sparse_problem);
-  const CycleBranch dense = traced(std::make_shared<Filled>(points));
+  const CycleBranch dense = traced(std::make_shared<Filled>(sparse_problem));
   CHECK_THAT(period_at_end(sparse), WithinRel(period_at_end(dense), 1e-10));
   const std::vector<double> few = multipliers_at_end(sparse);
   const std::vector<double> all = multipliers_at_end(dense);
@@ -147,6 +169,31 @@ TEST_CASE("Cycles of a sparse field are those of the same dense one, and their m
   REQUIRE(few.size() < all.size());
   for (std::size_t i = 0; i < few.size(); ++i) CHECK_THAT(few[i], WithinAbs(all[i], 1e-9));
   CHECK(few[0] < 1);  // stable, as its Hopf point tells
+}
+
+TEST_CASE("Sparse cycles in the plane have the multiplier of dense ones") {
+  const OrbitMesh mesh(CollocationRule(5), 40);
+  const Vector angle = two_pi * mesh.places();
+  Matrix circle(2, angle.size());
+  circle << 2 * angle.array().cos().transpose(), -2 * angle.array().sin().transpose();
+  TraceOptions options;
+  options.parameter = "mu";
+  options.from = 1;
+  options.to = 1.5;
+  const auto traced = [&](const std::shared_ptr<const Problem>& problem) {
+    const CycleStart start = cycle_from_orbit(std::make_shared<EquilibriumField>(problem), mesh, circle, 6.6,
+                                              Vector::Constant(1, 1));
+    CycleBranch found = trace_cycles(start, options, few_intervals(40, 5));
+    REQUIRE(found.branch.complete());
+    return found;
+  };
+  const auto plane = std::make_shared<SparsePlane>();
+  const CycleBranch sparse = traced(plane);
+  const CycleBranch dense = traced(std::make_shared<Filled>(plane));
+  CHECK_THAT(period_at_end(sparse), WithinRel(period_at_end(dense), 1e-8));
+  const std::vector<double> one = multipliers_at_end(sparse);
+  REQUIRE(one.size() == 1);
+  CHECK_THAT(one[0], WithinRel(multipliers_at_end(dense).at(0), 1e-6));
 }
 
 TEST_CASE("Cycles on a line leave its Hopf point as its normal form tells") {
@@ -199,7 +246,7 @@ TEST_CASE("A branch point of sparse cycles is that of dense ones, as is what lea
     return found;
   };
   const auto sparse = traced(sparse_problem);
-  const auto dense = traced(std::make_shared<Filled>(points));
+  const auto dense = traced(std::make_shared<Filled>(sparse_problem));
   const auto located = [](const std::vector<CycleBranch>& found) {
     const auto all = of_type(found[0].branch, PointType::branch_point);
     REQUIRE(all.size() == 1);
