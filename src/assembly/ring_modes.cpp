@@ -1,7 +1,6 @@
 // The modes of a part of a whole ring whose sectors are not alike, in those of the equal sectors.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -198,39 +197,24 @@ bool stays_definite(const Matrix& compliance, const Matrix& change, double margi
 
 }  // namespace
 
-/// K and M of all changes, one after the other, in those of the modes.
-std::array<Matrix, 2> RingPart::changes() const {
-  const Index size = std::ssize(rows_);
-  std::array<Matrix, 2> all{Matrix::Zero(size, size), Matrix::Zero(size, size)};
-  const double rate = given_.circular_frequency * given_.circular_frequency;
-  Index at = 0;
-  for (const RingChange& change : given_.changes) {
-    const Index own = std::ssize(change.of);
-    all[0].block(at, at, own, own) = change.stiffness;
-    if (change.mass.size() > 0) all[1].block(at, at, own, own) = rate * change.mass;
-    at += own;
-  }
-  return all;
-}
-
 void RingPart::check_changes() const {
-  if (!rows_.empty() && is_modal_) check_changes(real_modes());
+  if (rows_.empty() || !is_modal_) return;
+  const RealModes all = real_modes();
+  check_changes(all, changed_rows(all));
 }
 
 /// Rigid motions are held by a millionth of the least elastic stiffness.
-void RingPart::check_changes(const RealModes& all) const {
+void RingPart::check_changes(const RealModes& all, const Matrix& rows) const {
   constexpr double rounding = 1e-12;     // of the largest square of a frequency, and of a mass
   constexpr double of_stiffness = 1e-6;  // modes of beams have errors of 1e-8
-  const Matrix rows = changed_rows(all);
-  const auto [stiffness, mass] = changes();
-  if (!stays_definite(rows * rows.transpose(), mass, rounding))
+  if (!stays_definite(rows * rows.transpose(), rate() * mass_, rounding))
     throw std::invalid_argument("mistuning and cuts leave a part of the ring without mass");
   const Vector squares = Vector::Map(all.squares.data(), rows.cols());
   const double rigid = rounding * squares.maxCoeff();
   const double elastic =
       squares.unaryExpr([=](double one) { return one > rigid ? one : squares.maxCoeff(); }).minCoeff();
   const Vector held = (squares.array().max(0) + 1e-6 * elastic).inverse();
-  if (!stays_definite(rows * held.asDiagonal() * rows.transpose(), stiffness, -of_stiffness))
+  if (!stays_definite(rows * held.asDiagonal() * rows.transpose(), stiffness_, -of_stiffness))
     throw std::invalid_argument("mistuning and cuts leave a part of the ring less than no stiffness");
 }
 
@@ -240,13 +224,12 @@ RingPart::ChangedModes RingPart::with_changes(const RealModes& all) const {
   const Index size = std::ssize(all.squares);
   ChangedModes changed{Vector::Map(all.squares.data(), size), Matrix::Identity(size, size)};
   if (rows_.empty() || size == 0) return changed;
-  check_changes(all);
   const Matrix rows = changed_rows(all);
-  const auto [more_stiffness, more_mass] = changes();
+  check_changes(all, rows);
   Matrix stiffness = changed.squares.asDiagonal();
-  stiffness.noalias() += rows.transpose() * more_stiffness * rows;
+  stiffness.noalias() += rows.transpose() * stiffness_ * rows;
   Matrix mass = changed.shapes;
-  mass.noalias() += rows.transpose() * more_mass * rows;
+  mass.noalias() += rate() * (rows.transpose() * mass_ * rows);
   auto modes = pencil(stiffness, mass);
   if (!modes) throw std::invalid_argument("the modes of the ring with mistuning and cuts were not found");
   const double least = rounding * std::max(changed.squares.maxCoeff(), stiffness.diagonal().maxCoeff());

@@ -31,6 +31,16 @@ RingPart::RingPart(Given given) : given_(std::move(given)) {
   }
   for (const RingChange& change : given_.changes)
     rows_.insert(rows_.end(), change.of.begin(), change.of.end());
+  const Index size = std::ssize(rows_);
+  stiffness_.setZero(size, size);
+  mass_.setZero(size, size);
+  Index at = 0;
+  for (const RingChange& change : given_.changes) {
+    const Index own = std::ssize(change.of);
+    stiffness_.block(at, at, own, own) = change.stiffness;
+    if (change.mass.size() > 0) mass_.block(at, at, own, own) = change.mass;
+    at += own;
+  }
   for (Index i = 0; i < count() * given_.contacts; ++i)
     contacts_.push_back({i / given_.contacts, i % given_.contacts});
   for (Index i = 0; i < count() * ports_; ++i) places_.push_back({i / ports_, i % ports_});
@@ -78,24 +88,11 @@ RingPart::Tuned RingPart::tuned(double eta, double speed) const {
 }
 
 RingPart::Stiffness RingPart::stiffness(double eta) const {
-  const Index size = std::ssize(rows_);
-  Stiffness all{ComplexMatrix::Zero(size, size), ComplexMatrix::Zero(size, size)};
   const Loss& loss = given_.loss;
-  const double rate = given_.circular_frequency * given_.circular_frequency;
-  Index at = 0;
-  for (const RingChange& change : given_.changes) {
-    const Index own = std::ssize(change.of);
-    auto value = all.value.block(at, at, own, own);
-    auto by_eta = all.by_eta.block(at, at, own, own);
-    value += Complex(1, loss.at(eta)) * change.stiffness.cast<Complex>();
-    by_eta += Complex(0, loss.viscous) * change.stiffness.cast<Complex>();
-    if (change.mass.size() > 0) {
-      value -= (rate * Complex(eta * eta, -loss.mass * eta)) * change.mass.cast<Complex>();
-      by_eta -= (rate * Complex(2 * eta, -loss.mass)) * change.mass.cast<Complex>();
-    }
-    at += own;
-  }
-  return all;
+  return {Complex(1, loss.at(eta)) * stiffness_.cast<Complex>() -
+              (rate() * Complex(eta * eta, -loss.mass * eta)) * mass_.cast<Complex>(),
+          Complex(0, loss.viscous) * stiffness_.cast<Complex>() -
+              (rate() * Complex(2 * eta, -loss.mass)) * mass_.cast<Complex>()};
 }
 
 /// D X, change by change.

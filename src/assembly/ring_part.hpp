@@ -83,8 +83,7 @@ class RingPart {
     Matrix shapes;   ///< D x D: in the modes of the equal sectors
   };
   ChangedModes with_changes(const RealModes& all) const;
-  std::array<Matrix, 2> changes() const;
-  void check_changes(const RealModes& all) const;
+  void check_changes(const RealModes& all, const Matrix& rows) const;
 
   /// What a number may be in a row of: itself and its slopes, by eta and by the speed.
   enum Slope : Index { itself, along_eta, along_speed };
@@ -135,6 +134,7 @@ class RingPart {
   Rows rows(const Solved& all, const std::vector<std::array<Index, 2>>& places, bool of_forces) const;
   void add_changes(const Solved& all, const Rows& own, double load, VariedReceptance& response) const;
 
+  double rate() const { return given_.circular_frequency * given_.circular_frequency; }  // w^2 over eta^2
   Index count() const { return std::ssize(given_.waves); }
   Index place(Index sector, Index port) const { return sector * ports_ + port; }
   /// Of one port's motion per force on another one, each by `place`.
@@ -157,8 +157,10 @@ class RingPart {
   ComplexMatrix transform_;                          // e^{-j a_m i}/N
   std::vector<bool> is_loaded_;                      // of each wave
   std::vector<std::vector<RingChange::Term>> rows_;  // of all changes
-  std::vector<std::array<Index, 2>> contacts_;       // sector and port of each
-  std::vector<std::array<Index, 2>> places_;         // the same of each `place`
+  Matrix stiffness_;                                 // of all changes, one after the other
+  Matrix mass_;
+  std::vector<std::array<Index, 2>> contacts_;  // sector and port of each
+  std::vector<std::array<Index, 2>> places_;    // the same of each `place`
   mutable std::atomic<std::shared_ptr<const Solved>>
       last_;  // that was asked for, which outputs ask for again
 };

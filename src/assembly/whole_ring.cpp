@@ -14,29 +14,33 @@
 namespace arcslip {
 namespace {
 
-/// A structure under the opposite wave: what it moves like backwards.
-ContactModes opposite(const ContactModes& modes) {
+/// A structure with its modes changed one by one.
+template <class Change>
+ContactModes with_modes(const ContactModes& modes, const Change& change) {
   std::vector<ContactMode> all = modes.modes();
-  for (ContactMode& mode : all) {
+  for (ContactMode& mode : all) change(mode);
+  return {modes.contacts(), std::move(all), modes.loss()};
+}
+
+/// One under the opposite wave: what it moves like backwards.
+ContactModes opposite(const ContactModes& modes) {
+  return with_modes(modes, [](ContactMode& mode) {
     mode.shape = mode.shape.conjugate().eval();
     mode.load = std::conj(mode.load);
-  }
-  return {modes.contacts(), std::move(all), modes.loss()};
+  });
 }
 
 /// The same under as many waves as half the sectors, if its load is half of that of each direction: shapes
 /// are real there but for a phase, and what the load has of the other phase cancels.
 ContactModes of_both_directions(const ContactModes& modes) {
   if (modes.is_solved()) return modes;
-  std::vector<ContactMode> all = modes.modes();
-  for (ContactMode& mode : all) {
+  return with_modes(modes, [](ContactMode& mode) {
     Index largest = 0;
     const double size = mode.shape.cwiseAbs().maxCoeff(&largest);
     const Complex phase = size > 0 ? mode.shape(largest) / size : 1;
     mode.shape = (mode.shape / phase).real().cast<Complex>().eval();
     mode.load = (mode.load * phase).real();
-  }
-  return {modes.contacts(), std::move(all), modes.loss()};
+  });
 }
 
 /// The same under so many times its load.
