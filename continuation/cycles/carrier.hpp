@@ -28,7 +28,7 @@ class Carrier {
     const auto slide = [&](double turn) {  // grows where both move alike
       return frame.phase.dot(turned(from, turn).head(count)) - frame.phase_value;
     };
-    const double spacing = 1 / static_cast<double>(to_.nodes());
+    const double spacing = 0.5 / static_cast<double>(to_.intervals());
     double least = std::numeric_limits<double>::infinity();
     double before = slide(-0.5);
     for (double turn = -0.5; turn < 0.5; turn += spacing) {

@@ -74,8 +74,8 @@ ComplexVector CycleProblem::found_multipliers(const Vector& u, const Vector& p, 
 ComplexVector CycleProblem::multipliers_by(const Vector& u, const Vector& p, const Regime& regime,
                                            const FactoredJacobian& jacobian) const {
   constexpr Index count = 20;
-  if (has_duration() && field().size() == 2)
-    return ComplexVector::Constant(1, growth_of_areas(frame(regime), jacobian.entries));
+  if (has_duration() && field().size() == 2)  // in the plane the multiplier, over any number of decades
+    return ComplexVector::Constant(1, growth_of_volumes(frame(regime), jacobian.entries));
   Matrix velocities;
   if (has_duration() && !find_velocities(u, p, velocities)) return {};
   if (field().sparse())
@@ -84,29 +84,6 @@ ComplexVector CycleProblem::multipliers_by(const Vector& u, const Vector& p, con
   const std::vector<Matrix> factors = transfers(jacobian);
   return has_duration() ? log_multipliers_beside(factors, velocities)
                         : continuation::log_multipliers(factors);
-}
-
-/// The logarithm of what an area grows by in a round, T times the mean of the trace of df/du [J. Liouville,
-/// J. Math. Pures Appl. 3 (1838) 342]: in the plane that of the multiplier, which is positive, over any
-/// number of decades. Of changes that are the same all along, of one unknown at a time, equations of
-/// collocation have this alone.
-double CycleProblem::growth_of_areas(const OrbitFrame& frame, const SparseMatrix& jacobian) const {
-  constexpr int n = 2;
-  const Vector& weights = frame.mesh.rule().weights();
-  const int* const rows = jacobian.innerIndexPtr();
-  const auto end = static_cast<int>(n * nodes());
-  double sum = 0;
-  for (int column = 0; column < end; ++column) {
-    double all = 0;
-    Index point = 0;  // of an interval: a node between two has the points of both
-    for (int k = jacobian.outerIndexPtr()[column]; k < jacobian.outerIndexPtr()[column + 1]; ++k) {
-      if (rows[k] < n || rows[k] >= end || (rows[k] - column) % n != 0) continue;
-      all += weights(point) * jacobian.valuePtr()[k];
-      point = point + 1 < weights.size() ? point + 1 : 0;
-    }
-    sum -= all / frame.in_units(column % n);
-  }
-  return sum;
 }
 
 bool CycleProblem::find_velocities(const Vector& u, const Vector& p, Matrix& out) const {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <type_traits>
 
 #include "arcslip/continuation/cycles/orbit_problem.hpp"
 
@@ -15,14 +14,13 @@ namespace {
 /// Of the integral of (u/scale) . (du_0/ds/scale), over that of the square of the latter.
 Vector phase_weights(const OrbitMesh& mesh, const Eigen::Ref<const Matrix>& orbit, const Vector& scale) {
   const CollocationRule& rule = mesh.rule();
-  const Index m = rule.degree();
   const Index n = orbit.rows();
   Vector weights = Vector::Zero(orbit.size());
   const double* const derivatives = rule.derivatives().data();
   const double* const shares = rule.values().data();
   const Vector inverse = scale.cwiseInverse();
   double square = 0;
-  const auto add_intervals = [&](auto degree) {
+  with_degree(rule.degree(), [&](auto degree) {
     for (Index j = 0; j < mesh.intervals(); ++j) {
       const double* const values = orbit.col(j * degree).data();
       double* const own = weights.data() + j * degree * n;
@@ -40,19 +38,22 @@ Vector phase_weights(const OrbitMesh& mesh, const Eigen::Ref<const Matrix>& orbi
       }
       square += changes / mesh.length(j);
     }
-  };
-  using Usual = std::integral_constant<Index, 4>;  // known, it takes much less time
-  m == Usual() ? add_intervals(Usual()) : add_intervals(m);
+  });
   return weights / square;
 }
 
 /// The integral of (a/scale) . (b/scale), values at the Gauss points of the frame's mesh.
 double product(const OrbitFrame& frame, const Matrix& a, const Matrix& b) {
   const Vector& weights = frame.mesh.rule().weights();
+  const double* of_a = a.data();
+  const double* of_b = b.data();
   double sum = 0;
-  for (Index k = 0; k < a.cols(); ++k) {
-    const double weight = weights(k % weights.size()) * frame.mesh.length(k / weights.size());
-    sum += weight * a.col(k).cwiseProduct(frame.in_units).dot(b.col(k).cwiseProduct(frame.in_units));
+  for (Index j = 0; j < a.cols() / weights.size(); ++j) {
+    for (const double weight : weights) {
+      double square = 0;
+      for (const double unit : frame.in_units) square += unit * unit * *of_a++ * *of_b++;
+      sum += weight * frame.mesh.length(j) * square;
+    }
   }
   return sum;
 }

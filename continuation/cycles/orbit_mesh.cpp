@@ -3,9 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <type_traits>
 
 namespace arcslip::continuation {
+namespace {
+
+double power(double x, Index n) {
+  double result = 1;
+  for (; n > 0; --n) result *= x;
+  return result;
+}
+
+}  // namespace
 
 Vector ranges(const Eigen::Ref<const Matrix>& orbit, const Vector& scale) {
   constexpr double least = 1e-3;
@@ -13,6 +21,11 @@ Vector ranges(const Eigen::Ref<const Matrix>& orbit, const Vector& scale) {
   const Vector range = (orbit.rowwise().maxCoeff() - orbit.rowwise().minCoeff()).cwiseQuotient(scale);
   const double largest = range.maxCoeff();
   return largest > 0 ? range.cwiseMax(std::max(least * largest, at_rest)).cwiseProduct(scale) : scale;
+}
+
+OrbitMesh::OrbitMesh(const CollocationRule& rule, Vector borders)
+    : rule_(rule), borders_(std::move(borders)) {
+  if (rule_.waves() == 0) equal_ = find(Vector::LinSpaced(2 * intervals() + 1, 0, 1));
 }
 
 double OrbitMesh::place(Index node) const {
@@ -51,6 +64,7 @@ Vector OrbitMesh::gauss_points() const {
 
 OrbitPlaces OrbitMesh::find(const Vector& s) const {
   OrbitPlaces places{s, {}, Matrix(rule_.degree() + 1, s.size())};
+  places.first.reserve(static_cast<std::size_t>(s.size()));
   Vector weights;
   for (Index k = 0; k < s.size(); ++k) {
     const Index j = interval(s(k));
@@ -65,20 +79,28 @@ Matrix OrbitMesh::at(const Eigen::Ref<const Matrix>& values, const OrbitPlaces& 
   const Index n = values.rows();
   const Index stride = values.outerStride();
   Matrix result(n, places.weights.cols());
-  const auto combine = [&](auto count) {
+  with_degree(rule_.degree(), [&](auto degree) {
     for (Index k = 0; k < result.cols(); ++k) {
       const double* const weights = places.weights.col(k).data();
       const double* const nodes = values.col(places.first[static_cast<std::size_t>(k)]).data();
-      for (Index r = 0; r < n; ++r) {
-        double sum = 0;
-        for (Index l = 0; l < count; ++l) sum += weights[l] * nodes[l * stride + r];
-        result(r, k) = sum;
+      double* const to = result.col(k).data();
+      Index r = 0;
+      for (; r + 1 < n; r += 2) {  // at once
+        double first = 0;
+        double second = 0;
+        for (Index l = 0; l <= degree; ++l) {
+          first += weights[l] * nodes[l * stride + r];
+          second += weights[l] * nodes[l * stride + r + 1];
+        }
+        to[r] = first;
+        to[r + 1] = second;
       }
+      if (r == n) continue;
+      double sum = 0;
+      for (Index l = 0; l <= degree; ++l) sum += weights[l] * nodes[l * stride + r];
+      to[r] = sum;
     }
-  };
-  using Usual = std::integral_constant<Index, 5>;  // of degree 4: known, it takes a quarter of the time
-  const Index count = places.weights.rows();
-  count == Usual() ? combine(Usual()) : combine(count);
+  });
   return result;
 }
 
@@ -96,8 +118,8 @@ Vector OrbitMesh::highest_derivatives(const Eigen::Ref<const Matrix>& values, co
   const Index count = intervals();
   Matrix of_degree(values.rows(), count);
   for (Index j = 0; j < count; ++j) {
-    of_degree.col(j) =
-        (values.middleCols(j * m, m + 1) * rule_.highest()).cwiseQuotient(scale) / std::pow(length(j), m);
+    of_degree.col(j) = values.middleCols(j * m, m + 1).lazyProduct(rule_.highest()).cwiseQuotient(scale) /
+                       power(length(j), m);
   }
   Vector at_borders(count + 1);
   for (Index j = 1; j < count; ++j) {
@@ -119,7 +141,7 @@ Vector OrbitMesh::errors(const Eigen::Ref<const Matrix>& values, const Vector& s
   }
   const Index order = rule_.degree() + 1;
   Vector result = highest_derivatives(values, scale) * (rule_.product() / std::tgamma(order + 1));
-  for (Index j = 0; j < intervals(); ++j) result(j) *= std::pow(length(j), order);
+  for (Index j = 0; j < intervals(); ++j) result(j) *= power(length(j), order);
   return result;
 }
 
@@ -167,12 +189,10 @@ Density joined(const Density& density, const PlaceSymmetry& symmetry) {
   return both;
 }
 
-/// By how much the ways that an orbit goes in equal parts of its time differ from those where a symmetry
-/// takes these to: 0 to 1.
-double asymmetry(const OrbitMesh& mesh, const Matrix& values, const Vector& scale,
-                 const PlaceSymmetry& symmetry) {
-  const Index count = 2 * mesh.intervals();
-  const Matrix at = mesh.at(values, mesh.find(Vector::LinSpaced(count + 1, 0, 1)));
+/// By how much the ways that an orbit goes in equal parts of its time, with values at their ends, differ from
+/// those where a symmetry takes these to: 0 to 1.
+double asymmetry(const Matrix& at, const Vector& scale, const PlaceSymmetry& symmetry) {
+  const Index count = at.cols() - 1;
   const Matrix ways = scale.cwiseInverse().asDiagonal() * (at.rightCols(count) - at.leftCols(count));
   const Vector lengths = ways.colwise().norm();
   double difference = 0;
@@ -203,9 +223,10 @@ OrbitMesh OrbitMesh::equidistributed(const Matrix& values, const Vector& scale, 
   constexpr double nearly = 0.12;  // of an asymmetry between 0 and 1
   Density density = this->density(values, scale);
   if (!(density.mean() > 0)) return {rule_, resolution};
+  const Matrix in_equal_parts = at(values, equal_);
   for (const PlaceSymmetry& other : symmetries) {
     if (symmetry == MeshSymmetry::none || resolution % other.intervals != 0) continue;
-    if (asymmetry(*this, values, scale, other) < nearly) density = joined(density, other);
+    if (asymmetry(in_equal_parts, scale, other) < nearly) density = joined(density, other);
   }
   const double each = density.mean() / static_cast<double>(resolution);
   Vector borders(resolution + 1);
@@ -233,7 +254,7 @@ bool OrbitMesh::is_lopsided(const Matrix& values, const Vector& scale) const {
   return std::any_of(symmetries.begin(), symmetries.end(), [&](const PlaceSymmetry& symmetry) {
     return intervals() % symmetry.intervals == 0 &&
            !std::all_of(borders_.begin(), borders_.end(), [&](double s) { return has(symmetry.place(s)); }) &&
-           asymmetry(*this, values, scale, symmetry) < nearly;
+           asymmetry(at(values, equal_), scale, symmetry) < nearly;
   });
 }
 

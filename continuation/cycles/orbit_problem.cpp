@@ -156,39 +156,42 @@ void OrbitProblem::fill_interval(const OrbitFrame& frame, double duration, Index
 /// these.
 void OrbitProblem::fill_blocks(const OrbitFrame& frame, double factor, Index interval, Index from,
                                Scratch& scratch, SparseMatrix& out) const {
-  const Index m = degree();
   const Index n = field_->size();
   const CollocationRule& rule = frame.mesh.rule();
   const int* const begins = block_.outerIndexPtr();
   const int* const rows = block_.innerIndexPtr();
-  double* to = scratch.blocks.data();
-  for (Index c = 0; c < n; ++c) {
-    for (Index i = 0; i < m; ++i) {
-      const double* const entries = scratch.entries(from + i);
-      for (int entry = begins[c]; entry < begins[c + 1]; ++entry)
-        *to++ = factor * entries[entry] * frame.in_units(rows[entry]);
-    }
-  }
-  for (Index k = 0; k <= m; ++k) {
-    const Index node = interval * m + k;
-    const bool is_end = node == 0 || node + 1 == nodes();
-    const bool is_second = k == 0 && interval > 0;  // those of the interval before come first
-    const int* const starts = out.outerIndexPtr() + node * n;
-    double* const begin = out.valuePtr() + (is_end ? end_entries() : 0);
-    const double* const slopes = rule.derivatives().col(k).data();
-    const double* blocks = scratch.blocks.data();
-    const double* weights = weights_.col(k).data();
+  const double* const units = frame.in_units.data();
+  const Index* const diagonals = diagonal_.data();
+  with_degree(degree(), [&](auto m) {
+    double* __restrict to = scratch.blocks.data();
     for (Index c = 0; c < n; ++c) {
-      const Index count = begins[c + 1] - begins[c];
-      double* const column = begin + starts[c] + (is_second ? m * count : 0);
-      multiply(weights, blocks, m * count, column);
-      const double unit = frame.in_units(c);
-      double* diagonal = column + diagonal_[static_cast<std::size_t>(c)];
-      for (Index i = 0; i < m; ++i, diagonal += count) *diagonal += slopes[i] * unit;
-      blocks += m * count;
-      weights += m * count;
+      for (Index i = 0; i < m; ++i) {
+        const double* const entries = scratch.entries(from + i);
+        for (int entry = begins[c]; entry < begins[c + 1]; ++entry)
+          *to++ = factor * entries[entry] * units[rows[entry]];
+      }
     }
-  }
+    for (Index k = 0; k <= m; ++k) {
+      const Index node = interval * m + k;
+      const bool is_end = node == 0 || node + 1 == nodes();
+      const bool is_second = k == 0 && interval > 0;  // those of the interval before come first
+      const int* const starts = out.outerIndexPtr() + node * n;
+      double* const begin = out.valuePtr() + (is_end ? end_entries() : 0);
+      const double* const slopes = rule.derivatives().col(k).data();
+      const double* blocks = scratch.blocks.data();
+      const double* weights = weights_.col(k).data();
+      for (Index c = 0; c < n; ++c) {
+        const Index count = begins[c + 1] - begins[c];
+        double* __restrict const column = begin + starts[c] + (is_second ? m * count : 0);
+        multiply(weights, blocks, m * count, column);
+        const double unit = units[c];
+        double* __restrict const diagonal = column + diagonals[c];
+        for (Index i = 0; i < m; ++i) diagonal[i * count] += slopes[i] * unit;
+        blocks += m * count;
+        weights += m * count;
+      }
+    }
+  });
 }
 
 bool OrbitProblem::fill_conditions(const OrbitFrame& frame, const Vector& u, const Vector& p,

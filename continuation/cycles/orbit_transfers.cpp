@@ -80,4 +80,31 @@ std::vector<Matrix> OrbitProblem::transfers(const FactoredJacobian& jacobian) co
   return out;
 }
 
+/// Of each node's columns what their own unknowns do at the points of an interval.
+double OrbitProblem::growth_of_volumes(const OrbitFrame& frame, const SparseMatrix& jacobian) const {
+  const double* const weights = frame.mesh.rule().weights().data();
+  const Index n = field_->size();
+  const Index count = intervals();
+  double sum = 0;
+  for (Index c = 0; c < n; ++c) {
+    const Index stride = block_.outerIndexPtr()[c + 1] - block_.outerIndexPtr()[c];
+    const double* const values = jacobian.valuePtr() + diagonal_[static_cast<std::size_t>(c)];
+    const int* const starts = jacobian.outerIndexPtr() + c;
+    with_degree(degree(), [&](auto m) {
+      double all = 0;
+      for (Index j = 0; j < count; ++j) {
+        for (Index k = 0; k <= m; ++k) {
+          const bool is_end = (j == 0 && k == 0) || (j + 1 == count && k == m);
+          const bool is_second = k == 0 && j > 0;  // those of the interval before come first
+          const double* const entries =
+              values + starts[(j * m + k) * n] + (is_end ? end_entries() : 0) + (is_second ? m * stride : 0);
+          for (Index i = 0; i < m; ++i) all += weights[i] * entries[i * stride];
+        }
+      }
+      sum -= all / frame.in_units(c);
+    });
+  }
+  return sum;
+}
+
 }  // namespace arcslip::continuation

@@ -33,16 +33,11 @@ SparseBorderedSolver::~SparseBorderedSolver() {
 }
 
 bool SparseBorderedSolver::same_pattern(const SparseMatrix& jacobian) const {
-  if (plan_.matrix.rows() != size() + borders() || plan_.borders != borders()) return false;
-  const int extra = static_cast<int>(borders());
-  for (Index j = 0; j < size(); ++j) {
-    const int* begin = jacobian.innerIndexPtr() + jacobian.outerIndexPtr()[j];
-    const int* end = jacobian.innerIndexPtr() + jacobian.outerIndexPtr()[j + 1];
-    const int* ours = plan_.matrix.innerIndexPtr() + plan_.matrix.outerIndexPtr()[j];
-    const int count = plan_.matrix.outerIndexPtr()[j + 1] - plan_.matrix.outerIndexPtr()[j] - extra;
-    if (end - begin != count || !std::equal(begin, end, ours)) return false;
-  }
-  return true;
+  const int* const begins = jacobian.outerIndexPtr();
+  const int* const rows = jacobian.innerIndexPtr();
+  return plan_.borders == borders() &&
+         std::equal(begins, begins + size() + 1, plan_.begins.begin(), plan_.begins.end()) &&
+         std::equal(rows, rows + begins[size()], plan_.rows.begin(), plan_.rows.end());
 }
 
 void SparseBorderedSolver::set_pattern(const SparseMatrix& jacobian) {
@@ -76,6 +71,8 @@ void SparseBorderedSolver::set_pattern(const SparseMatrix& jacobian) {
   plan_.dense = make_alike_factors(plan_.matrix, borders());
   if (plan_.dense == nullptr)
     plan_.dense = make_frontal_factors(plan_.matrix, borders(), dense_gain * info[AMD_NMULTSUBS_LU]);
+  plan_.begins.assign(jacobian.outerIndexPtr(), jacobian.outerIndexPtr() + n + 1);
+  plan_.rows.assign(jacobian.innerIndexPtr(), jacobian.innerIndexPtr() + jacobian.nonZeros());
   plan_.borders = borders();
 }
 

@@ -62,7 +62,6 @@ class CycleProblem : public PeriodicOrbit {
                                const FactoredJacobian& jacobian) const override;
 
  private:
-  double growth_of_areas(const OrbitFrame& frame, const SparseMatrix& jacobian) const;
   /// At the ends of intervals, n x (N + 1).
   [[nodiscard]] bool find_velocities(const Vector& u, const Vector& p, Matrix& out) const;
 

@@ -27,7 +27,7 @@ enum class MeshSymmetry { nearly, none };
 class OrbitMesh {
  public:
   /// `borders` N + 1, ascending from 0 to 1.
-  OrbitMesh(const CollocationRule& rule, Vector borders) : rule_(rule), borders_(std::move(borders)) {}
+  OrbitMesh(const CollocationRule& rule, Vector borders);
 
   /// All intervals of one length.
   OrbitMesh(const CollocationRule& rule, Index intervals)
@@ -78,6 +78,7 @@ class OrbitMesh {
 
   CollocationRule rule_;
   Vector borders_;
+  OrbitPlaces equal_;  // the ends of 2 N equal parts, of polynomials
 };
 
 /// How far each unknown goes along an orbit; of those that hardly move, in units of `scale`, a thousandth of

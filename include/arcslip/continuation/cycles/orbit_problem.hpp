@@ -171,6 +171,10 @@ class OrbitProblem : public Problem {
 
   Index nodes() const { return intervals() * degree() + 1; }
 
+  /// The logarithm of what a volume of u grows by along an orbit, by the Jacobian there: T times the mean of
+  /// the trace of df/du [J. Liouville, J. Math. Pures Appl. 3 (1838) 342].
+  double growth_of_volumes(const OrbitFrame& frame, const SparseMatrix& jacobian) const;
+
   /// Whether what keeps an orbit apart is little beside how far its unknowns go: not where these come to
   /// rest.
   bool is_nearly_simpler(const Vector& u, const Regime& regime) const;

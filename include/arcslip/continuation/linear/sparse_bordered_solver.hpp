@@ -51,6 +51,8 @@ class SparseBorderedSolver final : public BorderedSolver {
   /// What the pattern alone tells, and room for values.
   struct Plan {
     Index borders = -1;                    // -1 where there is none
+    std::vector<int> begins;               // of J's columns
+    std::vector<int> rows;                 // of J's entries
     SparseMatrix matrix;                   // whole
     std::vector<int> order;                // of elimination, with the least fill
     std::vector<Index> last_rows;          // for its end
