@@ -123,17 +123,38 @@ bool MeshWatch::carry(const Carrier& carrier, const Regime& regime, Corrector& c
   return true;
 }
 
+/// Carries a point to a frame that is good enough for its orbit; false if there is none. What intervals much
+/// longer than a layer have made of this comes right on shorter ones, which then tell where they are to lie.
+bool MeshWatch::settle(Corrector& corrector, CurvePoint& point) {
+  constexpr int most = 4;
+  for (int tries = 0; tries < most; ++tries) {
+    const BasePoint at = of_orbits(point);
+    const std::optional<Regime> good = renewed(at);
+    Regime regime;
+    if (good) {
+      regime = *good;
+    } else {
+      const OrbitFrame& frame = orbits_.frame(at.regime);
+      const Matrix orbit = orbits_.orbit(at.unknowns);
+      const OrbitMesh mesh =
+          frame.mesh.equidistributed(orbit, range_on(frame, orbit), orbits_.resolution(), MeshSymmetry::none);
+      regime = orbits_.add_frame(mesh, frame.mesh.carried(orbit, mesh), at.parameters);
+    }
+    const bool is_carried = carry(Carrier(orbits_, point.regime, regime), regime, corrector, point);
+    if (good || !is_carried) return is_carried;
+  }
+  return false;
+}
+
 bool MeshWatch::renew(Branch& branch, const TraceOptions& options) {
   Progress& progress = *branch.checkpoint->ahead;
-  const Regime before = progress.here.regime;
-  const std::optional<Regime> regime = renewed(of_orbits(progress.here));
-  if (!regime) return false;
-  const Carrier carrier(orbits_, before, *regime);
   Corrector corrector(traced(), index_of(traced().parameter_names(), options.parameter),
                       {.tolerance = options.tolerance});
-  const Vector bend = carrier(progress.bend.cwiseProduct(progress.here.scale));
   CurvePoint here = progress.here;
-  if (!carry(carrier, *regime, corrector, here)) return false;
+  if (!settle(corrector, here)) return false;
+  const Regime regime = here.regime;
+  const Vector bend =
+      Carrier(orbits_, progress.here.regime, regime)(progress.bend.cwiseProduct(progress.here.scale));
   if (curve_ != nullptr) progress.rescaled = 1;
   if (!agrees(here, progress.signs) && can_wait()) return adapt(progress.here);
   take_far_signs(progress.here, here, progress.signs);
@@ -141,9 +162,9 @@ bool MeshWatch::renew(Branch& branch, const TraceOptions& options) {
   progress.here = here;
   progress.bend = bend.cwiseQuotient(progress.here.scale);
   progress.start = *start_;
-  Carrier of_start(orbits_, progress.start.regime, *regime);
+  Carrier of_start(orbits_, progress.start.regime, regime);
   of_start.turn_to(progress.start.unknowns, here.unknowns);
-  carry(of_start, *regime, corrector, progress.start);
+  carry(of_start, regime, corrector, progress.start);
   progress.past.clear();
   return adapt(here);
 }

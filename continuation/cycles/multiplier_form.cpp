@@ -307,6 +307,16 @@ bool is_double(const ComplexVector& rates, Complex multiplier, double duration) 
 
 }  // namespace
 
+bool has_critical_multiplier(PointType type, const ComplexVector& log_multipliers) {
+  constexpr double near = 0.1;
+  const auto misses_by = [&](const Complex& log) {
+    if (type == PointType::neimark_sacker) return std::abs(log.real());
+    return std::abs(log - Complex(0, type == PointType::period_doubling ? pi : 0));
+  };
+  return std::any_of(log_multipliers.begin(), log_multipliers.end(),
+                     [&](const Complex& log) { return misses_by(log) < near; });
+}
+
 std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType type, const Guess& at,
                                               double angle) {
   const auto* cycles = dynamic_cast<const CycleProblem*>(&problem);
@@ -319,6 +329,9 @@ std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType 
   const bool is_known =
       type == PointType::period_doubling || type == PointType::neimark_sacker || type == PointType::fold;
   if (!is_known || (!is_cycle && (!problem.is_map() || problem.sparse()))) return std::nullopt;
+  if (is_cycle &&
+      !has_critical_multiplier(type, cycles->log_multipliers(at.unknowns, at.parameters, at.regime)))
+    return std::nullopt;
   const Rounds rounds(problem, at);
   if (!rounds.exists()) return std::nullopt;
   const ComplexVector rates = type == PointType::fold ? ComplexVector() : rates_at(problem, at);

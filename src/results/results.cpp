@@ -159,6 +159,10 @@ void add_multipliers(const TracedBranch& traced, const BranchPoint& point, order
     multipliers.push_back({multiplier.real(), multiplier.imag()});
   }
   special["multipliers"] = std::move(multipliers);
+  const bool has_one = point.type == PointType::fold || point.type == PointType::period_doubling ||
+                       point.type == PointType::neimark_sacker;
+  if (has_one && logs.size() > 0 && !continuation::has_critical_multiplier(point.type, logs))
+    special["resolved"] = false;
   if (point.type != PointType::neimark_sacker || logs.size() == 0) return;
   const auto crosses = std::min_element(logs.begin(), logs.end(), [](const Complex& a, const Complex& b) {
     const auto off = [](const Complex& log) { return std::abs(log.real()) + (log.imag() > 0 ? 0 : pi); };

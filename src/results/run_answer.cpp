@@ -177,6 +177,19 @@ Sentences multipliers_answer(const ordered_json& branches) {
   return sentences;
 }
 
+/// "Of 2 special points of cycles the parameter is known but not the orbit: ..."
+Sentences unresolved_answer(const ordered_json& branches) {
+  std::size_t count = 0;
+  for (const ordered_json& branch : branches) {
+    for (const ordered_json& point : branch.at("special")) count += point.value("resolved", true) ? 0 : 1;
+  }
+  if (count == 0) return {};
+  return {
+      fmt::format("Of {} special point{} of cycles the parameter is known but not the orbit: multipliers "
+                  "pass by decades there from one number to the next.",
+                  count, count == 1 ? "" : "s")};
+}
+
 /// "At the point l2 is negative: the cycle is stable." of as many points, at some of which the number is so.
 std::string sign_answer(const char* name, const char* number, std::size_t negative, std::size_t all,
                         const char* cycle) {
@@ -305,8 +318,8 @@ std::vector<std::string> run_answer(const ordered_json& summary) {
   if (surfaces.empty()) sentences.push_back(count_answer(branches));
   for (const Sentences& more :
        {surfaces, solutions_answer(branches), hopf_answer(branches), multipliers_answer(branches),
-        normal_forms_answer(branches), symmetries_answer(branches), ends_answer(branches),
-        certificates_answer(branches)})
+        unresolved_answer(branches), normal_forms_answer(branches), symmetries_answer(branches),
+        ends_answer(branches), certificates_answer(branches)})
     sentences.insert(sentences.end(), more.begin(), more.end());
   if (summary.value("interrupted", false)) sentences.emplace_back("The run was interrupted.");
   return sentences;

@@ -48,6 +48,7 @@ class MeshWatch {
   void take_far_signs(const CurvePoint& before, const CurvePoint& after, Signs& signs) const;
   [[nodiscard]] bool adapt(const CurvePoint& point);
   bool carry(const Carrier& carrier, const Regime& regime, Corrector& corrector, CurvePoint& point);
+  [[nodiscard]] bool settle(Corrector& corrector, CurvePoint& point);
   bool can_wait();
 
   const OrbitProblem& orbits_;

@@ -44,9 +44,15 @@ struct MultiplierForm {
   }
 };
 
+/// Whether one of the multipliers, by their logarithms, is where that of a period doubling, a Neimark-Sacker
+/// point or a fold is. Where a parameter tells orbits apart by its last digits alone, as along canards,
+/// multipliers pass there by decades from one number to the next: the parameter is known then, the orbit is
+/// not.
+[[nodiscard]] bool has_critical_multiplier(PointType type, const ComplexVector& log_multipliers);
+
 /// At a period doubling, a Neimark-Sacker point or a fold of a CycleProblem or a map. None where F cannot be
-/// evaluated around it, where mu^3 = 1, and where a torus has no angle. `angle` is theta, where it is known;
-/// 0: that of the pair nearest to the unit circle.
+/// evaluated around it, where the orbit is not known, where mu^3 = 1, and where a torus has no angle. `angle`
+/// is theta, where it is known; 0: that of the pair nearest to the unit circle.
 [[nodiscard]] std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType type,
                                                             const Guess& at, double angle = 0);
 
