@@ -106,9 +106,11 @@ class AxisSearch {
   }
 
   /// How many are unstable just ahead, at `place`, of which those from `least` on, less than `most`, vanish
-  /// here; none where that is not told.
+  /// here; none where that is not told. Beside a branch point a place may lie on the other branch, so that
+  /// the next one is to tell the same.
   std::optional<Index> unstable_ahead(Index least, Index most, double& place) {
     const double plainly = 10 * step_.tolerances.rough * largest_;
+    std::optional<Index> last;
     for (double ahead = 1e-6; ahead <= aside; ahead *= 10) {
       const double s = ahead * step_.upper();
       const auto value = [&](Index k) {
@@ -121,10 +123,11 @@ class AxisSearch {
         is_told = is_told && std::abs(value(k)) > plainly;
       }
       if (!is_told) continue;
+      if (last == unstable) return last;
+      last = unstable;
       place = s;
-      return unstable;
     }
-    return std::nullopt;
+    return last;
   }
 
   bool may_cross(Index i, int sign) {

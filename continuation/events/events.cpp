@@ -9,14 +9,24 @@
 
 namespace arcslip::continuation {
 
+namespace {
+
+/// Below which an eigenvalue is zero; all of them may vanish together.
+double zero_eigenvalue(const Watch& watch, const Tolerances& tolerances) {
+  const ComplexVector& values = watch.eigenvalues();
+  double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0;
+  for (const Look& look : watch.kept()) {
+    for (const double rate : look.rates) largest = std::max(largest, std::abs(rate));
+  }
+  return tolerances.zero_eigenvalue * largest;
+}
+
+}  // namespace
+
 int Passage::real_crossings() const {
   if (before.unstable < 0) return 0;
   const ComplexVector& values = watch.eigenvalues();
-  double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0;
-  for (const Look& look : watch.kept()) {  // where all of them vanish together
-    for (const double rate : look.rates) largest = std::max(largest, std::abs(rate));
-  }
-  const double zero = stepper.tolerances().zero_eigenvalue * largest;
+  const double zero = zero_eigenvalue(watch, stepper.tolerances());
   int more = 0;
   for (Index i = 0; i < values.size(); ++i) {
     if (std::abs(values(i)) <= zero) more += i < before.unstable ? -1 : 1;
@@ -42,8 +52,18 @@ EventSearch StepSearch::run() {
   for (Event& event : result_.events) {
     const auto& types = event.kind->explained_by;
     event.told = std::none_of(types.begin(), types.end(), [this](PointType type) { return has(type); });
+    if (event.told && event.type == PointType::branch_point && an_eigenvalue_vanishes())
+      event.type = watch.real_crossing();
   }
   return std::move(result_);
+}
+
+/// Whether one that the problem has a name for is zero at the upper end.
+bool StepSearch::an_eigenvalue_vanishes() {
+  if (watch.real_crossing() == PointType::regular || !stepper.prober().probe(upper_)) return false;
+  watch.look(stepper.prober().probed().point);
+  const ComplexVector& values = watch.eigenvalues();
+  return values.size() > 0 && values.cwiseAbs().minCoeff() <= zero_eigenvalue(watch, tolerances);
 }
 
 bool StepSearch::has(PointType type) const {

@@ -14,6 +14,11 @@
 namespace arcslip::continuation {
 namespace {
 
+struct Spectrum {
+  ComplexVector values;
+  ComplexMatrix vectors;
+};
+
 /// A matrix by its numbers: all of a dense one, or the entries of a sparse pattern.
 class Operator {
  public:
@@ -46,14 +51,18 @@ class Operator {
     return shifted.partialPivLu().solve(right);
   }
 
-  ComplexVector eigenvalues(const Vector& numbers, bool transposed, ComplexMatrix& vectors) const {
+  Spectrum spectrum(const Vector& numbers, bool transposed) const {
+    Spectrum found;
     if (is_sparse_) {
       const auto matrix = sparse(numbers);
-      return nearest_eigenvalues(transposed ? SparseMatrix(matrix.transpose()) : SparseMatrix(matrix),
-                                 eigenvalues_looked_at, &vectors);
+      found.values = nearest_eigenvalues(transposed ? SparseMatrix(matrix.transpose()) : SparseMatrix(matrix),
+                                         eigenvalues_looked_at, &found.vectors);
+    } else {
+      const auto matrix = numbers.reshaped(size_, size_);
+      found.values =
+          continuation::eigenvalues(transposed ? Matrix(matrix.transpose()) : Matrix(matrix), &found.vectors);
     }
-    const auto matrix = numbers.reshaped(size_, size_);
-    return continuation::eigenvalues(transposed ? Matrix(matrix.transpose()) : Matrix(matrix), &vectors);
+    return found;
   }
 
  private:
@@ -172,11 +181,10 @@ class Derivatives {
 /// Where eigenvalues are one and the same: as well as points are located.
 constexpr double one_value = 1e-7;  // of the largest
 
-/// The vector of the eigenvalue nearest to j omega, of length 1, or of the transposed matrix and -j omega;
-/// omega becomes its size. `equal` counts those that are equal to it.
-ComplexVector vector_at(const Operator& matrix, const Vector& a, double sign, double& omega, int& equal) {
-  ComplexMatrix vectors;
-  const ComplexVector values = matrix.eigenvalues(a, sign < 0, vectors);
+/// The vector of the eigenvalue nearest to j omega, of length 1, or for a `sign` of -1 to -j omega; omega
+/// becomes its size. `equal` counts those that are equal to it.
+ComplexVector vector_at(const Spectrum& spectrum, double sign, double& omega, int& equal) {
+  const ComplexVector& values = spectrum.values;
   Index best = -1;
   for (Index i = 0; i < values.size(); ++i) {
     if (!(sign * values(i).imag() > 0)) continue;
@@ -189,7 +197,35 @@ ComplexVector vector_at(const Operator& matrix, const Vector& a, double sign, do
   omega = std::abs(values(best).imag());
   const double near = one_value * values.cwiseAbs().maxCoeff();
   equal = static_cast<int>(((values.array() - values(best)).abs() <= near).count());
-  return vectors.col(best).normalized();
+  return spectrum.vectors.col(best).normalized();
+}
+
+/// Whether x has a part along y, which symmetry may forbid.
+bool has_part(const ComplexVector& x, const ComplexVector& y) {
+  constexpr double rounding = 1e-6;  // where branches cross states are known to 1e-8
+  return std::abs(x.dot(y)) > rounding * x.norm() * y.norm();
+}
+
+/// Of a vector and A^{-1} times that, if an odd number of real eigenvalues above 0 enters the latter: those
+/// whose vectors count.
+template <class Counts>
+bool passes_poles(const Spectrum& right, const Spectrum& left, const ComplexVector& vector,
+                  const ComplexVector& solution, const Counts& counts) {
+  bool is_odd = false;
+  const double least = right.values.cwiseAbs().minCoeff();
+  for (Index i = 0; i < right.values.size(); ++i) {
+    if (right.values(i).imag() != 0) continue;
+    Index same = 0;
+    (left.values.array() - right.values(i)).abs().minCoeff(&same);
+    const ComplexVector w = left.vectors.col(same);
+    const ComplexVector v = right.vectors.col(i);
+    // the sign of one that is rounding is as was solved
+    const double above = std::abs(right.values(i)) > least
+                             ? right.values(i).real()
+                             : (std::conj(w.dot(vector)) * w.dot(solution)).real();
+    if (above > 0 && has_part(w, v) && has_part(w, vector) && counts(v)) is_odd = !is_odd;
+  }
+  return is_odd;
 }
 
 }  // namespace
@@ -200,10 +236,12 @@ std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, dou
   std::optional<Operator> matrix;
   if (!derivatives.linear(a, matrix)) return std::nullopt;
   int pairs = 1;
-  const ComplexVector q = vector_at(*matrix, a, 1, omega, pairs);
+  const Spectrum right = matrix->spectrum(a, false);
+  const ComplexVector q = vector_at(right, 1, omega, pairs);
   if (pairs > 1) return HopfForm{omega, std::nan(""), 0, pairs};
   double same = omega;
-  ComplexVector p = vector_at(*matrix, a, -1, same, pairs);
+  const Spectrum left = matrix->spectrum(a, true);
+  ComplexVector p = vector_at(left, -1, same, pairs);
   if (q.size() == 0 || p.size() == 0) return std::nullopt;
   const double apart = std::abs(p.dot(q)) / p.cwiseAbs().dot(q.cwiseAbs());
   p /= std::conj(p.dot(q));  // p^H q = 1
@@ -222,7 +260,8 @@ std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, dou
     return by_real(x.real()) + j * by_real(x.imag()) +
            sign * j * (by_imaginary(x.real()) + j * by_imaginary(x.imag()));
   };
-  const ComplexVector mean = matrix->solve(a, 0, second(-1, q).real().cast<Complex>());
+  const ComplexVector pushed = second(-1, q).real().cast<Complex>();  // B(q, q*)
+  const ComplexVector mean = matrix->solve(a, 0, pushed);
   const ComplexVector higher = -matrix->solve(a, Complex(0, 2 * omega), second(1, q));
 
   const Vector mixed = (along[2].cube + along[3].cube - 2 * along[0].cube) / 6;  // C(Re, Im, Im)
@@ -234,8 +273,13 @@ std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, dou
   const Complex by_mean = p.dot(second(1, mean));
   const Complex by_second = p.dot(second(-1, higher));
   const double terms = std::abs(cubic) + 2 * std::abs(by_mean) + std::abs(by_second);
-  return HopfForm{omega, 0.5 * (cubic - 2.0 * by_mean + by_second).real() / omega, 0.5 * terms / omega, pairs,
-                  apart};
+  return HopfForm{omega,
+                  0.5 * (cubic - 2.0 * by_mean + by_second).real() / omega,
+                  0.5 * terms / omega,
+                  pairs,
+                  apart,
+                  passes_poles(right, left, pushed, mean,
+                               [&](const ComplexVector& v) { return has_part(p, second(1, v)); })};
 }
 
 }  // namespace arcslip::continuation

@@ -83,7 +83,7 @@ void HopfProblem::test(const Vector& u, const Vector& p, const Regime& regime, V
   Vector parameter_scale(point.parameters.size());
   base().scale(point.unknowns, point.parameters, scale, parameter_scale);
   const double usual = 1 / (scale.maxCoeff() * scale.maxCoeff());  // where its terms vanish all at once
-  values(1) = form->lyapunov / (form->terms + usual);              // jumps where terms have poles
+  values(1) = (form->poles_passed ? -1 : 1) * form->lyapunov / (form->terms + usual);
 }
 
 }  // namespace arcslip::continuation

@@ -1,5 +1,6 @@
 // What is told does not hang on the units in which a model is written.
 
+#include "arcslip/results/results.hpp"
 #include "cycle_cases.hpp"
 
 namespace {

@@ -176,7 +176,7 @@ TEST_CASE("Equilibria of two unknowns have no zero-Hopf points on their fold cur
 }
 
 TEST_CASE("All zero-Hopf points of the discretised Brusselator are found on its curve of Hopf points") {
-  const double max_step = GENERATE(0.3, 0.1, 0.02);
+  const double max_step = GENERATE(0.3, 0.1, 0.05, 0.03, 0.02);
   CAPTURE(max_step);
   const Brusselator problem(30);
   HopfProblem hopf(problem, 1);
@@ -196,6 +196,7 @@ TEST_CASE("All zero-Hopf points of the discretised Brusselator are found on its 
   }
   std::sort(expected.begin(), expected.end());
   REQUIRE(expected.size() == 6);
+  CHECK(of_type(curve, PointType::generalized_hopf).size() == 3);
   std::vector<double> found;
   for (const BranchPoint& point : curve.points) {
     const BasePoint at = hopf.split(point.unknowns, point.parameters, 0);

@@ -60,6 +60,7 @@ class StepSearch {
 
  private:
   void note_jumps_at_folds();
+  bool an_eigenvalue_vanishes();
 
   double upper_;
   EventSearch result_;

@@ -24,6 +24,8 @@ struct HopfForm {
   double terms = 0;     ///< the sum of the sizes of its three terms
   int pairs = 1;        ///< how many are at +-j omega
   double apart = 1;     ///< |p^H q| over the sum of its terms' sizes: 0 where the pair has one vector alone
+  bool poles_passed = false;  ///< whether an odd number of real eigenvalues above 0 enters A^{-1} B(q, q*):
+                              ///< l_1 has a pole where one of these vanishes
 };
 
 /// At a Hopf point of an equilibrium, of the pair of eigenvalues nearest to +-j omega or, where that is
