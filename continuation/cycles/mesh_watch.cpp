@@ -127,9 +127,11 @@ bool MeshWatch::carry(const Carrier& carrier, const Regime& regime, Corrector& c
 /// longer than a layer have made of this comes right on shorter ones, which then tell where they are to lie.
 bool MeshWatch::settle(Corrector& corrector, CurvePoint& point) {
   constexpr int most = 4;
+  constexpr Index many = 100;  // intervals: fewer may be too coarse
   for (int tries = 0; tries < most; ++tries) {
     const BasePoint at = of_orbits(point);
     const std::optional<Regime> good = renewed(at);
+    if (!good && orbits_.resolution() < many) return false;
     Regime regime;
     if (good) {
       regime = *good;
