@@ -249,7 +249,9 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     };
     if (point.iterations == 1 && !held && !went_on && counts(length / last_length))
       contraction_ = length / last_length;
-    if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded &&
+    // A guess may be two corrections off: no other branch is near that it could come to.
+    const bool comes_nearer = distance == 0 && point.residual < shortness * last_residual;
+    if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded && !comes_nearer &&
         point.residual > rounding_level(point)) {
       return Correction::diverging;
     }

@@ -10,9 +10,10 @@ namespace {
 using namespace arcslip;
 using namespace arcslip::testing;
 
-std::string hopf_curve(const std::string& model, const std::string& window, double max_step) {
+std::string hopf_curve(const std::string& model, const std::string& window, double max_step,
+                       const std::string& more = "") {
   return model + "[branch]\ncurve = \"hopf\"\nparameters = [\"a\", \"b\"]\nwindow = " + window +
-         fmt::format("\nfrom = -1\nto = 1\n[continuation]\nmax_step = {}\n", max_step);
+         fmt::format("\nfrom = -1\nto = 1\n{}[continuation]\nmax_step = {}\n", more, max_step);
 }
 
 }  // namespace
@@ -40,10 +41,12 @@ TEST_CASE("Where equilibria cross on a curve of Hopf points there is a zero-Hopf
     const auto all = traced_of(hopf_curve(
         "[model.parameters]\na = -1\nb = -0.73\n[model.equations]\nx = \"x*(b + 0.3*a - x) + 0.3*(u^2 + "
         "v^2)*x\"\nu = \"(a + 0.4*x)*u - v - u*(u^2 + v^2)\"\nv = \"u + (a + 0.4*x)*v - v*(u^2 + v^2)\"\n",
-        "[-2, 2]", max_step));
+        "[-2, 2]", max_step, "switching = true\n"));
     CAPTURE(max_step);
-    REQUIRE(all.size() == 1);
+    REQUIRE(all.size() >= 2);  // the curve on which they cross follows
     CHECK(count(all[0], PointType::branch_point) == 0);
     check_values(values_at(all[0], PointType::zero_hopf, "b"), {0}, 1e-9);
+    for (const BranchPoint& point : all[1].branch.points)
+      CHECK_THAT(value(all[1], point, "b"), WithinAbs(-0.3 * value(all[1], point, "a"), 1e-9));
   }
 }

@@ -149,6 +149,19 @@ TEST_CASE("Both directions from a start in between make one branch") {
   CHECK(start[0].arclength == 0);
 }
 
+TEST_CASE("A start may be two corrections of one length off") {
+  // steep up to 0, where u = -1 is as far away as the guess is
+  const auto root = [](double u) { return std::sqrt(u * u + 1e-6); };
+  const ScalarProblem bent(
+      {"p"}, [=](double u, const Vector& p) { return u / 40 + 0.5 * (root(u) + u) + 0.025 - p(0); },
+      [=](double u, const Vector&) { return 1.0 / 40 + 0.5 * (1 + u / root(u)); },
+      {[](double, const Vector&) { return -1.0; }});
+  const Guess guess{vector_of({1}), vector_of({0}), 0, vector_of({0, 1})};
+  const Branch branch = trace(bent, guess, over("p", 0, 1));
+  REQUIRE(branch.stop == Stop::reached_end);
+  CHECK_THAT(branch.points.front().unknowns(0), WithinAbs(-1, 1e-4));
+}
+
 TEST_CASE("Any stored point is a place to start from again") {
   const Branch branch = trace(Cusp(), {vector_of({-1.5}), vector_of({-2})}, over("mu", -2, 2));
   for (std::size_t i = 1; i + 1 < branch.points.size(); i += 5) {
