@@ -108,8 +108,9 @@ bool CrossingSearch::passes_pole(Node p, Node q) {
   constexpr double large = 10;  // beside 1, as the determinant is at one of the step's ends
   constexpr int enough = 8;     // halvings
   const auto grow = [&] { return std::min(std::abs(p.value), std::abs(q.value)) > large; };
-  if (!(p.value * p.slope > 0) || !(q.value * q.slope < 0) || p.value * q.value > 0) return false;
-  for (int i = 0; i < enough && !grow(); ++i) {
+  const auto may_grow = [&] { return p.value * p.slope > 0 || q.value * q.slope < 0; };
+  if (p.value * q.value > 0) return false;
+  for (int i = 0; i < enough && !grow() && may_grow(); ++i) {
     const std::optional<Node> middle = determinant_at(0.5 * (p.s + q.s));
     if (!middle) return false;
     (middle->value * p.value > 0 ? p : q) = *middle;
