@@ -262,6 +262,10 @@ std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, dou
   };
   const ComplexVector pushed = second(-1, q).real().cast<Complex>();  // B(q, q*)
   const ComplexVector mean = matrix->solve(a, 0, pushed);
+  constexpr double rounding = 1e-12;  // of a solution, however large
+  const double left_over = (matrix->apply(a, mean) - pushed).norm();
+  if (!(left_over <= rounding * (a.norm() * mean.norm() + pushed.norm())))
+    return HopfForm{omega, std::nan(""), 0, pairs, apart};
   const ComplexVector higher = -matrix->solve(a, Complex(0, 2 * omega), second(1, q));
 
   const Vector mixed = (along[2].cube + along[3].cube - 2 * along[0].cube) / 6;  // C(Re, Im, Im)

@@ -20,7 +20,7 @@ namespace arcslip::continuation {
 
 struct HopfForm {
   double omega = 0;     ///< > 0
-  double lyapunov = 0;  ///< l_1; nan of several pairs
+  double lyapunov = 0;  ///< l_1; nan of several pairs, and where A is singular to the last digit
   double terms = 0;     ///< the sum of the sizes of its three terms
   int pairs = 1;        ///< how many are at +-j omega
   double apart = 1;     ///< |p^H q| over the sum of its terms' sizes: 0 where the pair has one vector alone
