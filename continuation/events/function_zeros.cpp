@@ -34,7 +34,7 @@ bool is_coefficient(PointType type) {
   return type == PointType::generalized_period_doubling || type == PointType::chenciner;
 }
 
-constexpr double off_pole = 1e-7;  // of the step: farther than points are located
+constexpr double off_pole = 1e-6;  // of the step: nearer to a pole rounding has either sign
 
 /// As far as a function is known that has a value where the step begins: to its end, or to its first event. A
 /// determinant that has no value at either is rounding before; others are read a little before an event where

@@ -249,8 +249,9 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     };
     if (point.iterations == 1 && !held && !went_on && counts(length / last_length))
       contraction_ = length / last_length;
-    // A guess may be two corrections off: no other branch is near that it could come to.
-    const bool comes_nearer = distance == 0 && point.residual < shortness * last_residual;
+    // A guess may be two corrections of one length off, as a small cycle at a double Hopf point is.
+    const bool comes_nearer = distance == 0 && point.iterations == 1 && length < 1.1 * last_length &&
+                              point.residual < shortness * last_residual;
     if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded && !comes_nearer &&
         point.residual > rounding_level(point)) {
       return Correction::diverging;

@@ -209,3 +209,29 @@ max_step = {}
     }
   }
 }
+
+TEST_CASE("Rounding beside a strong resonance is no degenerate Neimark-Sacker point", "[cycles]") {
+  // the coefficient has its pole at a = 0.0292; it vanishes twice elsewhere
+  const std::string map = R"case([model]
+kind = "map"
+[model.parameters]
+a = 0
+b = 0
+[model.equations]
+x = "-0.123*x + 0.016*y - 1.463*z - 0.172*a + 0.224*b - 0.378*b*y + 0.324*b*z + 0.059*x*y - 0.031*x*z + 0.439*y^2 + 0.084*z^2 - 0.3*x^3"
+y = "-2.968*x + 0.225*y - 0.243*z + 0.013*a + 0.029*a*x + 0.843*b + 0.458*x*y - 0.101*y^2 - 0.968*y*z + 0.246*z^2 - 0.3*y^3"
+z = "1.303*x + 0.491*y + 0.534*z - 0.768*a - 0.555*a*x + 0.957*a*y + 0.013*a*z - 0.024*b + 0.288*b*y - 0.348*b*z - 0.084*x^2 - 0.441*x*y - 0.652*x*z + 0.127*y^2 + 0.145*y*z - 0.55*z^2 - 0.3*z^3"
+[branch]
+curve = "neimark_sacker"
+parameters = ["a", "b"]
+window = [-1, 1]
+from = -1
+to = 1
+)case";
+  for (const char* max_step : {"0.7", "0.5", "0.1"}) {
+    const auto all = traced_of(map, {fmt::format("continuation.max_step={}", max_step)});
+    CAPTURE(max_step);
+    check_values(all_values_at(all, PointType::chenciner, "a"), {-0.00706894456, 0.025268127771}, 1e-8);
+    check_values(all_values_at(all, PointType::resonance_1_3, "a"), {0.029203030747}, 1e-8);
+  }
+}
