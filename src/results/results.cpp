@@ -119,7 +119,7 @@ void add_hopf_form(const TracedBranch& traced, const BranchPoint& point, ordered
   special["omega"] = form->omega;
   if (form->pairs > 1) {
     special["pairs"] = form->pairs;
-  } else {
+  } else if (std::isfinite(form->lyapunov)) {
     special["lyapunov"] = form->lyapunov;
   }
 }
