@@ -33,7 +33,7 @@ bool MeshWatch::is_lopsided(const BranchPoint& point) const {
   const OrbitFrame& frame = orbits_.frame(point.regime);
   const Matrix orbit = orbits_.orbit(point.unknowns);
   return frame.mesh.is_lopsided(orbit, range_on(frame, orbit)) &&
-         renewed_mesh(frame, orbit, MeshSymmetry::nearly).has_value();
+         is_good_for(frame, orbit, new_mesh(frame, orbit, MeshSymmetry::nearly));
 }
 
 BasePoint MeshWatch::of_orbits(const CurvePoint& point) const {
@@ -41,26 +41,31 @@ BasePoint MeshWatch::of_orbits(const CurvePoint& point) const {
   return curve_->split(point.unknowns, point.parameters, point.regime);
 }
 
-/// A mesh for an orbit; none where none of this resolution is good enough.
-std::optional<OrbitMesh> MeshWatch::renewed_mesh(const OrbitFrame& frame, const Matrix& orbit,
-                                                 MeshSymmetry symmetry) const {
-  // or the next point would ask again; a finer mesh starts all over, which takes long where it is large
-  const double margin = orbits_.field().sparse() ? 0.5 : 0.3;
-  const Vector range = range_on(frame, orbit);
-  OrbitMesh mesh = frame.mesh.equidistributed(orbit, range, orbits_.resolution(), symmetry);
-  if (mesh.errors(frame.mesh.carried(orbit, mesh), range).maxCoeff() > margin * options_.tolerance)
-    return std::nullopt;
-  return mesh;
+OrbitMesh MeshWatch::new_mesh(const OrbitFrame& frame, const Matrix& orbit, MeshSymmetry symmetry) const {
+  return frame.mesh.equidistributed(orbit, range_on(frame, orbit), orbits_.resolution(), symmetry);
 }
 
-/// A frame for an orbit; none where no mesh of this resolution is good enough.
-std::optional<Regime> MeshWatch::renewed(const BasePoint& at) const {
+bool MeshWatch::is_good_for(const OrbitFrame& frame, const Matrix& orbit, const OrbitMesh& mesh) const {
+  // or the next point would ask again; a finer mesh starts all over, which takes long where it is large
+  const double margin = orbits_.field().sparse() ? 0.5 : 0.3;
+  const Vector errors = mesh.errors(frame.mesh.carried(orbit, mesh), range_on(frame, orbit));
+  return !(errors.maxCoeff() > margin * options_.tolerance);
+}
+
+/// A frame for an orbit, and whether its mesh is good enough; none where it is not and has few intervals: it
+/// may be too coarse.
+std::optional<Regime> MeshWatch::renewed(const BasePoint& at, bool& is_good) const {
+  constexpr Index many = 100;
   const OrbitFrame& frame = orbits_.frame(at.regime);
   const Matrix orbit = orbits_.orbit(at.unknowns);
-  std::optional<OrbitMesh> mesh = renewed_mesh(frame, orbit, MeshSymmetry::nearly);
-  if (!mesh) mesh = renewed_mesh(frame, orbit, MeshSymmetry::none);
-  if (!mesh) return std::nullopt;
-  return orbits_.add_frame(*mesh, frame.mesh.carried(orbit, *mesh), at.parameters);
+  OrbitMesh mesh = new_mesh(frame, orbit, MeshSymmetry::nearly);
+  is_good = is_good_for(frame, orbit, mesh);
+  if (!is_good) {
+    mesh = new_mesh(frame, orbit, MeshSymmetry::none);
+    is_good = is_good_for(frame, orbit, mesh);
+  }
+  if (!is_good && orbits_.resolution() < many) return std::nullopt;
+  return orbits_.add_frame(mesh, frame.mesh.carried(orbit, mesh), at.parameters);
 }
 
 /// Whether a point has the signs that are known of it.
@@ -127,25 +132,12 @@ bool MeshWatch::carry(const Carrier& carrier, const Regime& regime, Corrector& c
 /// longer than a layer have made of this comes right on shorter ones, which then tell where they are to lie.
 bool MeshWatch::settle(Corrector& corrector, CurvePoint& point) {
   constexpr int most = 4;
-  constexpr Index many = 100;  // intervals: fewer may be too coarse
-  for (int tries = 0; tries < most; ++tries) {
-    const BasePoint at = of_orbits(point);
-    const std::optional<Regime> good = renewed(at);
-    if (!good && orbits_.resolution() < many) return false;
-    Regime regime;
-    if (good) {
-      regime = *good;
-    } else {
-      const OrbitFrame& frame = orbits_.frame(at.regime);
-      const Matrix orbit = orbits_.orbit(at.unknowns);
-      const OrbitMesh mesh =
-          frame.mesh.equidistributed(orbit, range_on(frame, orbit), orbits_.resolution(), MeshSymmetry::none);
-      regime = orbits_.add_frame(mesh, frame.mesh.carried(orbit, mesh), at.parameters);
-    }
-    const bool is_carried = carry(Carrier(orbits_, point.regime, regime), regime, corrector, point);
-    if (good || !is_carried) return is_carried;
+  bool is_good = false;
+  for (int tries = 0; tries < most && !is_good; ++tries) {
+    const std::optional<Regime> regime = renewed(of_orbits(point), is_good);
+    if (!regime || !carry(Carrier(orbits_, point.regime, *regime), *regime, corrector, point)) return false;
   }
-  return false;
+  return is_good;
 }
 
 bool MeshWatch::renew(Branch& branch, const TraceOptions& options) {

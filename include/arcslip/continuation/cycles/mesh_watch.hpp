@@ -41,9 +41,9 @@ class MeshWatch {
   const Problem& traced() const { return curve_ != nullptr ? static_cast<const Problem&>(*curve_) : orbits_; }
   BasePoint of_orbits(const CurvePoint& point) const;
   bool is_lopsided(const BranchPoint& point) const;
-  std::optional<OrbitMesh> renewed_mesh(const OrbitFrame& frame, const Matrix& orbit,
-                                        MeshSymmetry symmetry) const;
-  std::optional<Regime> renewed(const BasePoint& at) const;
+  OrbitMesh new_mesh(const OrbitFrame& frame, const Matrix& orbit, MeshSymmetry symmetry) const;
+  bool is_good_for(const OrbitFrame& frame, const Matrix& orbit, const OrbitMesh& mesh) const;
+  std::optional<Regime> renewed(const BasePoint& at, bool& is_good) const;
   bool agrees(const CurvePoint& point, const Signs& signs) const;
   void take_far_signs(const CurvePoint& before, const CurvePoint& after, Signs& signs) const;
   [[nodiscard]] bool adapt(const CurvePoint& point);
