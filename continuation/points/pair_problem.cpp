@@ -123,6 +123,8 @@ double PairProblem::meeting_test(const BasePoint& point, double apart) const {
       is_found || (at_.evaluate(point.unknowns, point.parameters, point.regime) && find_space(point));
   if (!is_known) return std::nan("");
   const Pair deviation = pair_ - 0.5 * pair_.trace() * Pair::Identity();
+  constexpr double rounding = 1e-10;  // where the pair has two eigenvectors
+  if (deviation.norm() < rounding * size_) return std::nan("");
   return apart / (deviation.squaredNorm() + std::abs(apart));
 }
 

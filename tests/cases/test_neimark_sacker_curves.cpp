@@ -286,6 +286,8 @@ to = 1.05
 }
 
 TEST_CASE("A curve of Hopf points goes on where the pair vanishes with two eigenvectors", "[hopf]") {
+  const std::string step = GENERATE("0.5", "0.1", "0.07", "0.04", "0.02");
+  INFO(step);
   const auto all = traced_of(R"case(
 [model.parameters]
 mu = -0.3
@@ -301,7 +303,8 @@ parameters = ["mu", "w"]
 window = [-0.5, 1]
 from = -1.5
 to = 1
-)case");
+)case",
+                             {"continuation.max_step=" + step});
   REQUIRE(all.size() == 2);
   for (const TracedBranch& one : all) {
     check_passes(one);
