@@ -147,14 +147,16 @@ bool MeshWatch::renew(Branch& branch, const TraceOptions& options) {
   CurvePoint here = progress.here;
   if (!settle(corrector, here)) return false;
   const Regime regime = here.regime;
-  const Vector bend =
-      Carrier(orbits_, progress.here.regime, regime)(progress.bend.cwiseProduct(progress.here.scale));
+  const Carrier of_here(orbits_, progress.here.regime, regime);
+  Bends bends = progress.bends;
+  for (Vector& bend : bends.derivatives)
+    bend = of_here(bend.cwiseProduct(progress.here.scale)).cwiseQuotient(here.scale);
   if (curve_ != nullptr) progress.rescaled = 1;
   if (!agrees(here, progress.signs) && can_wait()) return adapt(progress.here);
   take_far_signs(progress.here, here, progress.signs);
   if (!start_) start_ = progress.start;
   progress.here = here;
-  progress.bend = bend.cwiseQuotient(progress.here.scale);
+  progress.bends = bends;
   progress.start = *start_;
   Carrier of_start(orbits_, progress.start.regime, regime);
   of_start.turn_to(progress.start.unknowns, here.unknowns);

@@ -17,7 +17,7 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr std::string_view signature = "arcslip-checkpoint-";
-constexpr int newest = 6;  // of the versions of the text
+constexpr int newest = 7;  // of the versions of the text
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -154,7 +154,8 @@ void progress(Archive& archive, Way& way) {
   const auto number = [&](auto& value) { archive(value); };
   curve_point(archive, way.here);
   curve_point(archive, way.start);
-  list(archive, way.bend, number);
+  auto& [bend, twist, change] = way.bends.derivatives;
+  list(archive, bend, number);
   list(archive, way.monitors, [&](auto& monitor) {
     archive(monitor.value);
     archive(monitor.slope);
@@ -169,6 +170,9 @@ void progress(Archive& archive, Way& way) {
   archive(way.distance);
   archive(way.arclength);
   counts(archive, way.found);
+  if constexpr (Archive::reads) {
+    for (auto* further : {&twist, &change}) further->setZero(bend.size());
+  }
   if (archive.version == 1) return;
   archive(way.last_value);
   archive(way.last_chord);
@@ -201,6 +205,9 @@ void progress(Archive& archive, Way& way) {
   archive(at_crossing);
   if constexpr (Archive::reads) way.signs.at_crossing = at_crossing != 0;
   for (auto& look : way.looks) list(archive, look.turns, number);
+  if (archive.version < 7) return;
+  for (auto* further : {&twist, &change}) list(archive, *further, number);
+  archive(way.bends.length);
 }
 
 Stop read_stop(const std::string& name) {

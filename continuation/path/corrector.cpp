@@ -4,14 +4,8 @@
 #include <limits>
 
 #include "arcslip/continuation/linear/front_plan.hpp"
-#include "arcslip/continuation/problem/evaluation.hpp"
 
 namespace arcslip::continuation {
-namespace {
-
-constexpr double shortness = 0.1;  // of a correction by factors from elsewhere, to the last one
-
-}  // namespace
 
 Work operator+(const Work& a, const Work& b) {
   return {a.evaluations + b.evaluations, a.factorizations + b.factorizations, a.iterations + b.iterations,
@@ -131,77 +125,15 @@ double Corrector::solve_correction(double change) {
   return correction_.norm();
 }
 
-bool Corrector::has_factors_at(const CurvePoint& origin, double near) {
-  if (!has_direction_ || factored_unknowns_.size() == 0 || factored_regime_ != origin.regime) return false;
-  before_ = (factored_unknowns_ - origin.unknowns).cwiseQuotient(origin.scale.head(size_));
-  return before_.norm() < near;
+Correction Corrector::with_direction() {
+  return solve_direction() ? Correction::converged : Correction::singular;
 }
 
-std::optional<FactoredJacobian> Corrector::jacobian_at(const CurvePoint& point) {
-  constexpr double most = 2;  // tolerances: `close` moves what has been corrected by one
-  const bool is_last =
-      factored_when_ == work_.evaluations && has_factors_at(point, most * options_.tolerance);
-  if (!is_last) return std::nullopt;
-  return FactoredJacobian{linearization_.sparse_jacobian(), solver_->rows_left(), &factored_scale_};
-}
-
-/// Corrects by factors from elsewhere, as `solve` does, as long as corrections shrink fast: from one of
-/// length `last`, and at the rate `rate` to begin with, if that is known. How often.
-template <class Solve>
-int Corrector::shorten(CurvePoint& point, const CurvePoint& origin, double last, double rate,
-                       const Solve& solve) {
-  constexpr int most = 6;
-  constexpr double enough = 0.1;  // of the tolerance: one more here takes much less than a factorization
-  for (int i = 0; i < most; ++i) {
-    if (options_.watch) options_.watch();
-    if (!continuation::evaluate(problem_, point.unknowns, point.parameters, point.regime,
-                                {.residual = &before_}))
-      return i;
-    const double length = solve();
-    if (!(length < shortness * last)) return i;
-    add_correction(point, origin);
-    if (i > 0 || rate == 0) rate = length / last;
-    if (rate * length <= enough * options_.tolerance) return i + 1;
-    last = length;
-  }
-  return most;
-}
-
-/// By the factors at the origin, which are at hand, if corrections are so short that Newton's first one would
-/// be its last: whether they are.
-bool Corrector::approach(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance) {
-  const auto solve = [&] {
-    difference(point, origin, correction_);
-    const double gap = distance - normal.dot(correction_);
-    correction_ << -before_, 0;
-    solver_->solve(correction_);
-    correction_.array() *= factored_scale_.array() / origin.scale.array();
-    const auto direction = direction_.cwiseProduct(factored_scale_).cwiseQuotient(origin.scale);
-    // The factors' own condition is another one, by a multiple of the direction.
-    correction_ += (gap - normal.dot(correction_)) / normal.dot(direction) * direction;
-    return correction_.norm();
-  };
-  return shorten(point, origin, std::sqrt(options_.tolerance), shortness, solve) > 0;
-}
-
-/// By the factors of Newton's correction, of length `last`, that led to the point, unless Newton's next one
-/// is known to be short enough: whether it went on, with the contraction.
-bool Corrector::go_on(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance,
-                      double last) {
-  if (!linearization_.sparse() || last < shortness * std::sqrt(options_.tolerance)) return false;
-  double first = 0;
-  const auto solve = [&] {
-    difference(point, origin, correction_);
-    const double gap = distance - normal.dot(correction_);
-    correction_ << -before_, gap;
-    solver_->solve(correction_);
-    const double length = correction_.norm();
-    if (first == 0) first = length;
-    return length;
-  };
-  if (shorten(point, origin, last, 0, solve) == 0) return false;
-  if (point.iterations == 1) contraction_ = first / last;
-  return true;
+/// What is left of the distance, over `correction_`.
+double Corrector::gap(const CurvePoint& point, const CurvePoint& origin, const Vector& normal,
+                      double distance) {
+  difference(point, origin, correction_);
+  return distance - normal.dot(correction_);
 }
 
 Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const Vector& normal,
@@ -210,37 +142,39 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
   point.iterations = 0;
   bool held = false;
   bool went_on = false;
+  bool ended = false;
   double last_length = 0;
   double last_residual = std::numeric_limits<double>::infinity();
-  const auto gap = [&] {
-    if (held) return 0.0;
-    difference(point, origin, correction_);
-    return distance - normal.dot(correction_);
-  };
-  constexpr double near = 0.01;  // of the distance
-  const bool approaches = begins_near_ && !to_rounding && has_factors_at(origin, near * distance);
-  if (approaches) begins_near_ = approach(point, origin, normal, distance);
+  const double approached = approach(point, origin, normal, to_rounding ? 0 : distance);
   while (true) {
     if (!evaluate(point)) return Correction::cannot_evaluate;
     if (!factor(point, origin.scale, normal)) return Correction::singular;
     const bool last = point.iterations >= options_.max_iterations;
     const bool stagnant = point.residual >= 0.5 * last_residual;
-    double length = solve_correction(gap());
-    if (!approaches && point.iterations == 0)
-      begins_near_ = length < shortness * std::sqrt(options_.tolerance);
+    double length = solve_correction(held ? 0 : gap(point, origin, normal, distance));
+    if (point.iterations == 0) remember(length, approached);
     // The correction that is left, too, since the residual is in units of the problem's.
-    const bool good = point.residual <= tolerance_ && (stagnant || length <= options_.tolerance);
+    const double most = point.iterations > 0 || approached > 0 ? options_.tolerance : unseen();
+    const bool good = point.residual <= tolerance_ && (stagnant || length <= most);
+    // Of a sparse problem the value of F takes much less than factors.
+    const bool may_end = !good && !ended && !held && !last && !to_rounding && linearization_.sparse();
+    if (may_end && length <= most) {
+      ended = true;
+      last_length = length;
+      last_residual = point.residual;
+      if (ends(point, origin)) return with_direction();
+      continue;
+    }
     const bool rounded = !good && (stagnant || (!to_rounding && length <= options_.tolerance)) &&
                          point.residual <= rounding_level(point);
     if (point.residual == 0 || (good && (!to_rounding || stagnant || last)) ||
-        (rounded && (held || !parameter_rounds_))) {
-      return solve_direction() ? Correction::converged : Correction::singular;
-    }
+        (rounded && (held || !parameter_rounds_)))
+      return with_direction();
     if (last) return Correction::too_many_iterations;
     held = held || rounded;  // keep the parameter, whose rounding is what is left, and correct the unknowns
     if (held) {
       if (!factor(point, origin.scale, parameter_normal_)) return Correction::singular;
-      length = solve_correction(gap());
+      length = solve_correction(0);
     }
     if (!std::isfinite(length)) return Correction::singular;
     // A ratio to or of what rounding leaves does not count, unless it is too small to shorten a step.
@@ -251,7 +185,7 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
       contraction_ = length / last_length;
     // A guess may be two corrections of one length off, as a small cycle at a double Hopf point is.
     const bool comes_nearer = distance == 0 && point.iterations == 1 && length < 1.1 * last_length &&
-                              point.residual < shortness * last_residual;
+                              point.residual < 0.1 * last_residual;
     if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded && !comes_nearer &&
         point.residual > rounding_level(point)) {
       return Correction::diverging;
@@ -318,8 +252,8 @@ void Corrector::apply(CurvePoint& point, const CurvePoint& origin) {
 
 Correction Corrector::linearise(CurvePoint& point, const Vector& normal) {
   if (!evaluate(point)) return Correction::cannot_evaluate;
-  if (!factor(point, point.scale, normal) || !solve_direction()) return Correction::singular;
-  return Correction::converged;
+  if (!factor(point, point.scale, normal)) return Correction::singular;
+  return with_direction();
 }
 
 bool Corrector::nearly_singular() {

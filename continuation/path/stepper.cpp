@@ -19,12 +19,12 @@ Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index
       monitors_(problem, corrector.parameter(), std::move(tracked)),
       prober_(corrector, monitors_, step_),
       crossings_(corrector, prober_, step_, tolerances),
+      predictor_(corrector.size() + 1, problem.sparse()),
       aside_(corrector.make_point()) {
   step_.here = step_.there = aside_;
   step_.tiny = tolerances.tiny_step * max_step;
   const Index size = corrector.size() + 1;
-  for (Vector* v : {&step_.normal, &step_.slope_from, &step_.slope_to, &step_.chord, &predicted_, &work_,
-                    &bend_, &next_bend_})
+  for (Vector* v : {&step_.normal, &step_.slope_from, &step_.slope_to, &step_.chord, &work_})
     v->setZero(size);
   step_.past.reserve(most_past);
   for (std::vector<Monitor>* m : {&at_here_, &step_.from, &step_.to})
@@ -79,7 +79,7 @@ Correction Stepper::start_along(const Vector& unknowns, const Vector& parameters
     // What is the same on both sides has a slope of rounding, or a corner, as the greater of two equal
     // values.
     for (Monitor& monitor : at_here_) monitor.slope = std::numeric_limits<double>::quiet_NaN();
-    bend_.setZero();
+    predictor_.forget();
     step_.past.clear();
     revision_ = problem_.revision();
   }
@@ -94,7 +94,7 @@ void Stepper::restore(const Progress& progress) {
     throw std::invalid_argument("resume: the problem has no value where the branch started");
   }
   step_.here = progress.here;
-  bend_ = progress.bend;
+  predictor_.set_bends(progress.bends);
   at_here_ = progress.monitors;  // without their reach
   monitors_.look(step_.here, step_.here.scale, step_.here.tangent, step_.to);
   for (std::size_t i = 0; i < at_here_.size(); ++i) at_here_[i].reach = step_.to[i].reach;
@@ -173,7 +173,7 @@ bool Stepper::look_ahead(double way) {
 void Stepper::begin_piece(const CurvePoint& origin) {
   corrector_.set_tangent(step_.here, origin);
   monitors_.look(step_.here, step_.here.scale, step_.here.tangent, at_here_);
-  bend_.setZero();
+  predictor_.forget();
   step_.past.clear();
   revision_ = problem_.revision();
 }
@@ -202,13 +202,9 @@ void Stepper::set_condition(Hold hold) {
   step_.slope_from = step_.here.tangent * slope_length(hold);
 }
 
-/// With a = 1/(normal . t) the curve's second derivative in the step's coordinate is a^2 (b - a (normal . b)
-/// t).
 void Stepper::predict() {
-  const double a = 1 / step_.normal.dot(step_.here.tangent);
-  work_ = a * a * (bend_ - a * step_.normal.dot(bend_) * step_.here.tangent);
-  predicted_ = step_.distance * step_.slope_from + 0.5 * step_.distance * step_.distance * work_;
-  corrector_.displace(step_.here, predicted_, step_.there);
+  predictor_.predict(step_, work_);
+  corrector_.displace(step_.here, work_, step_.there);
 }
 
 bool Stepper::attempt(Hold hold, double distance) {
@@ -248,7 +244,7 @@ bool Stepper::finish(bool lands, double value) {
     signals_.contraction = 1;
     return false;
   }
-  signals_.prediction_error = (step_.chord - predicted_).norm();
+  signals_.prediction_error = (step_.chord - predictor_.parabola()).norm();
   work_ = step_.chord - 0.5 * step_.distance * (step_.slope_from + step_.slope_to);
   constexpr double closer = 3;  // than elsewhere
   if (is_over_parameter() && (lands || on_target_) && !step_.is_tiny(step_.distance))
@@ -266,7 +262,8 @@ bool Stepper::finish(bool lands, double value) {
     step_.distance = step_.normal.dot(step_.chord);
   }
 
-  set_bend(corner);
+  corrector_.set_tangent(step_.there, step_.here);
+  predictor_.learn(step_, corrector_.options().tolerance, corner);
   if (ends_singular()) {
     signals_.turn = limits_.turn_limit * 4;
     return false;
@@ -302,17 +299,6 @@ bool Stepper::ends_singular() const {
   constexpr double rounding = 1e-12;  // of the determinant
   return !step_.is_tiny(step_.distance) && std::isfinite(step_.here.log_determinant) &&
          step_.there.log_determinant < step_.here.log_determinant + std::log(rounding);
-}
-
-/// Of the step that is to be kept, with its end's tangent.
-void Stepper::set_bend(bool is_corner) {
-  next_bend_ = (step_.slope_to - step_.slope_from) / step_.distance;
-  const bool straight = (step_.slope_to - step_.slope_from).norm() < 1e-6 * step_.slope_to.norm();
-  // rounding, or a corner in between
-  if (straight || is_corner || step_.slope_to.dot(step_.slope_from) < 0) next_bend_.setZero();
-  corrector_.set_tangent(step_.there, step_.here);
-  next_bend_.array() *= step_.here.scale.array() / step_.there.scale.array();
-  next_bend_ /= arc_rate() * arc_rate();
 }
 
 double Stepper::roughness(double s, const std::vector<Monitor>& at_s) const {
@@ -356,7 +342,7 @@ void Stepper::advance() {
                     {length, step_.here.orientation, step_.here.log_determinant, parameter_rate(step_.here)});
   std::swap(step_.here, step_.there);
   set_moved(step_.there.parameters(corrector_.parameter()));
-  bend_ = next_bend_;
+  predictor_.advance();
 }
 
 void Stepper::set_moved(double before) {

@@ -110,7 +110,7 @@ Branch Tracer::finished(const Begin& begin) {
   if (further && !branch_.points.empty()) {
     state_.taken = targets_.taken();
     state_.here = stepper_.here();
-    state_.bend = stepper_.bend();
+    state_.bends = stepper_.bends();
     state_.monitors = stepper_.at_here();
     state_.past = stepper_.step().past;
     state_.looks = watch_.kept();

@@ -98,7 +98,8 @@ void Tracer::require_same(const Progress& progress) const {
     if (point->regime.size() > problem_.switch_count())
       refuse(fmt::format("there is no regime {}, which the checkpoint names", digits(point->regime)));
   }
-  require_count("entries in the bend", n + 1, progress.bend.size());
+  for (const Vector& bend : progress.bends.derivatives)
+    require_count("entries in a bend", n + 1, bend.size());
   require_count("observables whose extrema are looked for", stepper_.monitors().tracked_count(),
                 std::ssize(progress.signs.observables));
   require_count("observables and borders",

@@ -203,15 +203,18 @@ TEST_CASE("Regimes of the second version of checkpoints are bits") {
   REQUIRE(whole.complete());
   options.max_points = 3;
   std::stringstream text;
-  write(text, *trace(problem, guess, options).checkpoint);
+  Checkpoint checkpoint = *trace(problem, guess, options).checkpoint;
+  checkpoint.ahead->bends.length = 0;
+  write(text, checkpoint);
   std::string old = text.str();
   const auto replace = [&](const std::string& now, const std::string& then) {
     REQUIRE(old.find(now) != std::string::npos);
     for (std::size_t at = 0; (at = old.find(now, at)) != std::string::npos; at += then.size())
       old.replace(at, now.size(), then);
   };
-  replace("arcslip-checkpoint-6", "arcslip-checkpoint-2");
-  replace("\n0\nnan\n0x0p+0\n0\nno_start\n", "\nno_start\n");
+  replace("arcslip-checkpoint-7", "arcslip-checkpoint-2");
+  const std::string straight = "3\n0x0p+0\n0x0p+0\n0x0p+0\n";
+  replace("\n0\nnan\n0x0p+0\n0\n" + straight + straight + "0x0p+0\nno_start\n", "\nno_start\n");
   replace("3\nstates 0\nstates 1\nstates 01\n", "4\nstates 0\nstates 1\nstates 01\nstates 11\n");
   REQUIRE(digits(guess.regime).size() == 2);
   replace("\n" + digits(guess.regime) + "\n", guess.regime[0] == 1 ? "\n3\n" : "\n2\n");

@@ -3,6 +3,7 @@
 // All that a branch under way consists of, so that it can be taken up again and goes on bit by bit as if it
 // had never been left.
 
+#include <array>
 #include <iosfwd>
 #include <limits>
 #include <map>
@@ -55,10 +56,16 @@ struct Signs {
   bool at_crossing = false;      ///< here some of them were told to vanish
 };
 
+/// How a branch goes on, as far as the last steps tell.
+struct Bends {
+  std::array<Vector, 3> derivatives;  ///< d^2 z/ds^2, d^3 z/ds^3 and d^4 z/ds^4 over the arc; 0: not known
+  double length = 0;                  ///< of the last step along the arc, in whose middle the first one is
+};
+
 /// One way along a branch, as far as it was gone.
 struct Progress {
   CurvePoint here;                    ///< the last one stored
-  Vector bend;                        ///< curvature of the last step
+  Bends bends;                        ///< in the scale here
   std::vector<Monitor> monitors;      ///< of the tracked observables, then of the borders
   Signs signs;                        ///< here
   Hold hold = Hold::tangent;          ///< of the next step

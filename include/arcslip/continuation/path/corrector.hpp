@@ -143,13 +143,18 @@ class Corrector {
   [[nodiscard]] bool evaluate(CurvePoint& point);
   [[nodiscard]] bool factor(const CurvePoint& point, const Vector& scale, const Vector& normal);
   [[nodiscard]] bool solve_direction();
+  Correction with_direction();
+  double gap(const CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance);
+  [[nodiscard]] bool find_residual(const CurvePoint& point);
+  [[nodiscard]] bool ends(CurvePoint& point, const CurvePoint& origin);
   double solve_correction(double change);
   void add_correction(CurvePoint& point, const CurvePoint& origin) const;
   [[nodiscard]] bool has_factors_at(const CurvePoint& origin, double near);
   template <class Solve>
   int shorten(CurvePoint& point, const CurvePoint& origin, double last, double rate, const Solve& solve);
-  [[nodiscard]] bool approach(CurvePoint& point, const CurvePoint& origin, const Vector& normal,
-                              double distance);
+  double approach(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance);
+  double unseen() const;
+  void remember(double length, double approached);
   [[nodiscard]] bool go_on(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance,
                            double last);
   void apply(CurvePoint& point, const CurvePoint& origin);
@@ -177,9 +182,10 @@ class Corrector {
   Vector factored_scale_;
   Vector factored_unknowns_;  // where the last factors of a sparse problem are from
   Regime factored_regime_;
-  long factored_when_ = 0;                // at which evaluation
-  bool has_direction_ = false;            // whether `direction_` is by these
-  bool begins_near_ = false;              // whether the last point's first correction was a short one
+  long factored_when_ = 0;                                         // at which evaluation
+  bool has_direction_ = false;                                     // whether `direction_` is by these
+  double first_length_ = std::numeric_limits<double>::infinity();  // of the last point's first correction
+  double nearing_ = 1;  // of a correction by factors from the point before it, to the one after it
   mutable Eigen::VectorX<Index> counts_;  // of the rows' entries
   mutable Vector squares_;                // of the rows' lengths
   Vector parameter_scale_;

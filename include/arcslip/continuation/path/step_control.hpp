@@ -1,9 +1,9 @@
 #pragma once
 
 // The length of the steps, from four signals: how fast the corrector contracted, how far the tangent turned,
-// how far the corrected point lies from the predicted one, and how rough what is watched is between the ends.
-// Near a smooth branch each grows at least as the square of the step (the turn and the roughness: as the
-// step), so that each asks for a factor sqrt(aim/signal) (these: aim/signal).
+// how far the point lies from where the last step's curvature leads, and how rough what is watched is between
+// the ends. Near a smooth branch each grows at least as the square of the step (the turn and the roughness:
+// as the step), so that each asks for a factor sqrt(aim/signal) (these: aim/signal).
 
 namespace arcslip::continuation {
 
@@ -11,7 +11,7 @@ namespace arcslip::continuation {
 struct StepSignals {
   double contraction = 0;       ///< |dz_2|/|dz_1| of Newton's method
   double turn = 0;              ///< angle between the tangents, radians
-  double prediction_error = 0;  ///< |corrected - predicted| in the problem's scale
+  double prediction_error = 0;  ///< |point - end of a parabola| in the problem's scale
   double mismatch =
       0;  ///< |step - (mean of the end slopes) x distance|: a branch in between that is not smooth
   double roughness = 0;  ///< of what is watched along the step, of what it may be

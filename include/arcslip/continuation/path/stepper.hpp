@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "arcslip/continuation/events/crossing.hpp"
+#include "arcslip/continuation/path/predictor.hpp"
 #include "arcslip/continuation/path/step_control.hpp"
 
 namespace arcslip::continuation {
@@ -68,9 +69,9 @@ class Stepper {
 
   /// Puts back what a checkpoint holds.
   void restore(const Progress& progress);
-  /// What a checkpoint takes: the curvature of the last step, and monitors at `here`, their slopes along the
+  /// What a checkpoint takes: how the last steps bend, and monitors at `here`, their slopes along the
   /// unit tangent.
-  const Vector& bend() const { return bend_; }
+  const Bends& bends() const { return predictor_.bends(); }
   const std::vector<Monitor>& at_here() const { return at_here_; }
 
   /// Whether the problem has been scaled anew since its determinants were taken.
@@ -127,7 +128,6 @@ class Stepper {
   [[nodiscard]] bool finish(bool lands, double value);
   [[nodiscard]] bool knows_crossings(bool corner);
   bool ends_singular() const;
-  void set_bend(bool is_corner);
 
   const Problem& problem_;
   Corrector& corrector_;
@@ -141,11 +141,9 @@ class Stepper {
   Monitors monitors_;
   Prober prober_;
   CrossingSearch crossings_;
+  Predictor predictor_;
   std::function<bool(const CurvePoint&)> meets_;
   std::vector<Monitor> at_here_;
-  Vector bend_;  // d^2 z/ds^2 over the last step, along the arc, in the scale at here
-  Vector next_bend_;
-  Vector predicted_;
   Vector work_;
   CurvePoint aside_;
   StepSignals signals_;
