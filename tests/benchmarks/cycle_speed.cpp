@@ -2,7 +2,7 @@
 // that stay, with Floquet multipliers at each point. Over the time of as many evaluations of the field with
 // its derivatives as there are Gauss points, and of as many dense factors of 12 unknowns as there are
 // intervals, one after the other in the same run. On the same meshes, of systems of two to eight unknowns, a
-// step of AUTO-07p to 1e-7 takes 1.4 to 2.9 times as long as one of these to 1e-10, and 1.9 to 4.2 times as
+// step of AUTO-07p to 1e-7 takes 2.0 to 4.9 times as long as one of these to 1e-10, and 2.2 to 5.6 times as
 // long as one to 1e-7.
 //
 // usage: cycle_speed
