@@ -28,11 +28,11 @@ void Predictor::predict(const Step& step, Vector& displacement) {
   const double s = step.distance;
   const double x = a * s;
   const double in_middle = a * step.normal.dot(b);
-  displacement = a * a * (b - in_middle * t);
-  parabola_ = s * step.slope_from + 0.5 * s * s * displacement;
+  parabola_ = s * step.slope_from + 0.5 * s * s * (a * a * (b - in_middle * t));
   displacement = parabola_;
+  if (!further_) return;
   twist_.setZero();
-  if (!further_ || !(x < far * d)) return;
+  if (!(x < far * d)) return;
   const double gamma = a * step.normal.dot(c);
   const double beta = in_middle + d / 2 * gamma;
   const double off = x * (x + d);
@@ -51,27 +51,27 @@ void Predictor::learn(const Step& step, double tolerance, bool is_corner) {
   const double d = step.distance;
   auto& [bend, twist, change] = next_bends_.derivatives;
   bend = (step.slope_to - step.slope_from) / d;
-  const auto scaled = step.here.scale.array() / step.there.scale.array();
-  const double rate =
-      (step.slope_to.array() * step.here.scale.array() / step.there.scale.array()).matrix().norm();
+  const double rate = step.arc_rate();
   next_bends_.length = rate * d;
   const bool straight = (step.slope_to - step.slope_from).norm() < 1e-6 * step.slope_to.norm();
   const bool turns_back = step.slope_to.dot(step.slope_from) < 0;
   if (straight || is_corner || turns_back)
     return straighten(next_bends_);  // rounding, or a corner in between
+  const auto scaled = step.here.scale.array() / step.there.scale.array();
+  if (further_) {
+    twist = 6 / (d * d) * (step.slope_from + step.slope_to - 2 / d * step.chord);
+    if (!(d * d * d / 12 * twist.norm() > rounding * tolerance)) twist.setZero();
+    change = twist - twist_;
+    if (!twist_.isZero(0) && change.norm() < std::max(alike * twist.norm(), smooth / d * bend.norm())) {
+      change *= 2 / (d + bends_.length * step.normal.dot(step.here.tangent));
+    } else {
+      change.setZero();
+    }
+    twist.array() *= scaled / (rate * rate * rate);
+    change.array() *= scaled / (rate * rate * rate * rate);
+  }
   bend.array() *= scaled;
   bend /= rate * rate;
-  if (!further_) return;
-  twist = 6 / (d * d) * (step.slope_from + step.slope_to - 2 / d * step.chord);
-  if (!(d * d * d / 12 * twist.norm() > rounding * tolerance)) twist.setZero();
-  change = twist - twist_;
-  if (!twist_.isZero(0) && change.norm() < std::max(alike * twist.norm(), smooth / d * bend.norm())) {
-    change *= 2 / (d + bends_.length * step.normal.dot(step.here.tangent));
-  } else {
-    change.setZero();
-  }
-  twist.array() *= scaled / (rate * rate * rate);
-  change.array() *= scaled / (rate * rate * rate * rate);
 }
 
 }  // namespace arcslip::continuation

@@ -18,6 +18,10 @@ bool Step::may_turn_twice() const {
   return may_vanish_twice({places.data(), count}, {rates.data(), count});
 }
 
+double Step::arc_rate() const {
+  return (slope_to.array() * here.scale.array() / there.scale.array()).matrix().norm();
+}
+
 void Step::interpolate(double s, Vector& out) const {
   const auto next =
       std::find_if(anchors.begin(), anchors.end(), [s](const Anchor& anchor) { return anchor.s >= s; });

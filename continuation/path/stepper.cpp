@@ -327,12 +327,8 @@ void Stepper::settle_on_border(int border) {
   }
 }
 
-double Stepper::arc_rate() const {
-  return (step_.slope_to.array() * step_.here.scale.array() / step_.there.scale.array()).matrix().norm();
-}
-
 void Stepper::advance() {
-  const double rate = arc_rate();
+  const double rate = step_.arc_rate();
   at_here_ = step_.to;
   for (Monitor& monitor : at_here_) monitor.slope /= rate;
   const double length = step_.chord.norm();

@@ -42,6 +42,9 @@ struct Step {
   std::vector<PastPoint> past;  ///< before `here`, the last one first
   double moved = 0;             ///< how far the parameter went in the step before, over its scale
 
+  /// Arclength per s at its end, in the scale there.
+  double arc_rate() const;
+
   /// Change of the parameter over s at both ends.
   double parameter_rate_from() const { return slope_from(slope_from.size() - 1); }
   double parameter_rate_to() const { return slope_to(slope_to.size() - 1); }

@@ -121,7 +121,6 @@ class Stepper {
 
  private:
   void begin_piece(const CurvePoint& origin);
-  double arc_rate() const;        // arclength per distance at the step's end
   void set_moved(double before);  // from this value of the parameter
   void set_condition(Hold hold);
   void predict();
