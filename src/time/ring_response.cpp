@@ -65,6 +65,8 @@ double step_error(const RingMotion& motion, const RingState& state, const RingSt
   return step_length(motion, state, next) / length_without_drift(motion, stacked(next));
 }
 
+constexpr double progress = 0.9;  // of a gap is left, at most, after a step that helps
+
 /// The numbers in the state's memory of one kind of elements.
 struct Block {
   Index first;
@@ -170,15 +172,25 @@ Round trial_of(RingMotion& motion, RingState state) {
   }
 }
 
-/// Where an event that a short step moves keeps G(s) from coming nearer to s, the ring is marched instead,
-/// for the n periods in which every node takes every place.
-Round improved(RingMotion& motion, const Round& here, const RingState& base, const Vector& step) {
-  constexpr int most_halvings = 6;
-  constexpr double progress = 0.9;
-  double part = 0.5;
-  for (int halving = 0; halving < most_halvings; ++halving, part /= 2) {
-    Round trial = trial_of(motion, moved_by(base, part * step));
-    if (trial.gap < progress * here.gap) return trial;
+/// What a part of the step leads to (`trial`: all of it) after which the next step, by the same derivative,
+/// is the shorter one: where the ring is hardly damped, G(s) - s is small far from s too, and grows on the
+/// way to where it is 0. Near there it must fall, as derivatives on either side of an event differ. Where
+/// events that short steps move leave no such part, the ring is marched for the n periods in which every node
+/// takes every place.
+Round nearer(RingMotion& motion, const NewtonStep& newton, const Round& here, const RingState& base,
+             const Vector& step, Round trial) {
+  constexpr double shortest = 1.0 / 128;
+  constexpr double short_step = 1e-3;
+  const double length = scaled(motion, step).norm();
+  const bool is_near = length < short_step * length_without_drift(motion, stacked(here.next));
+  const auto is_better = [&](double part) {
+    if (is_near || !std::isfinite(trial.gap)) return trial.gap < progress * here.gap;
+    const Vector next = newton.step(newton.aligned(trial.state, trial.next), trial.next);
+    return scaled(motion, next).norm() < (1 - part / 4) * length;
+  };
+  for (double part = 1; part > shortest; part /= 2) {
+    if (is_better(part)) return trial;
+    trial = trial_of(motion, moved_by(base, part / 2 * step));
   }
   RingState marched = here.next;
   for (Index i = 1; i < motion.ring().nodes(); ++i) marched = next_state(motion, marched);
@@ -300,13 +312,13 @@ SettledMotion shoot(RingMotion& motion, RingState guess, double tolerance, int r
     const Vector step = newton->step(base, here.next);
     Round trial = trial_of(motion, moved_by(base, step));
     const bool is_good = trial.gap < well * here.gap;
-    if (!is_good && !is_last) newton.reset();
-    if (is_good || trial.gap < 0.9 * here.gap) {
+    if (is_good || trial.gap < progress * here.gap) {
       here = std::move(trial);
     } else if (is_new && !is_last) {
       if (result.error < rounding) break;
-      here = improved(motion, here, base, step);
+      here = nearer(motion, *newton, here, base, step, std::move(trial));
     }
+    if (!is_good && !is_last) newton.reset();
     result.error = error();
     is_last = newton && !is_new && !is_last && result.error <= tolerance;
     ++result.rounds;

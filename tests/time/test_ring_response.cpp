@@ -66,6 +66,25 @@ TEST_CASE("Newton's method and a long march from rest find the same response", "
   CHECK(state_distance(motion, from_balance.state, from_rest.state) < 1e-10);
 }
 
+// Hardly damped, between the resonances in stick and in slip: what the first steps lead to is far from
+// closing.
+TEST_CASE("Newton's method finds the response of a hardly damped ring from rest", "[ring]") {
+  SystemParameters s = small_beams(30);
+  s.mass_ratio = 5;
+  s.frequency_ratio = 4;
+  s.interface_stiffness = shear_interface_stiffness(33.3, 0.3);
+  s.base_damping = s.damper_damping = 1e-4;
+  const auto [eta, preload] = GENERATE(std::pair(3.841, 1.0), std::pair(3.9, 1.0), std::pair(3.75, 2.0));
+  RingMotion motion(build_ring(s), eta, preload);
+  const SettledMotion from_rest = shoot(motion, motion.at_rest());
+  REQUIRE(from_rest.settled);
+  CHECK(motion.count().events > 0);
+  CHECK(motion.count().steps < 200 * motion.ring().nodes());  // of four periods
+  const SettledMotion from_balance = shoot(motion, motion.travelling({one_harmonic(s, eta, preload)}));
+  REQUIRE(from_balance.settled);
+  CHECK(state_distance(motion, from_balance.state, from_rest.state) < 1e-8);
+}
+
 TEST_CASE("Each node repeats its neighbour with the delay of the wave, marched without turning", "[ring]") {
   RingMotion motion(build_ring(small_rods()), 2.3, 0.03);
   const Ring& ring = motion.ring();
