@@ -39,11 +39,12 @@ struct Estimated {
 };
 
 /// Calls `find(expansion, numbers)` with reaches, each half of the one before, and gives the numbers of those
-/// that agree best: once where series are exact. `find` returns false where there are none.
+/// that agree best, or first to rounding: once where series are exact. `find` returns false where there are none.
 template <class Find>
 Estimated with_best_reach(const Problem& problem, Vector& numbers, const Find& find) {
   constexpr double longest = 0.4;
   constexpr int reaches = 8;
+  constexpr double rounding = 1e-12;  // of the numbers: what shorter reaches would add to
   Estimated best;
   Vector before;
   double reach = longest;
@@ -62,6 +63,7 @@ Estimated with_best_reach(const Problem& problem, Vector& numbers, const Find& f
     if (before.size() > 0 && (!best.exists || apart < best.error)) {
       best = {apart, true};
       numbers = here;
+      if (apart <= rounding * here.template lpNorm<Eigen::Infinity>()) return best;
     }
     before = here;
   }
