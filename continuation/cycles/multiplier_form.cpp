@@ -36,10 +36,11 @@ class Rounds {
     const Index size = whole ? point_.unknowns.size() : count_;
     const SparseMatrix jacobian =
         at_.sparse() ? at_.sparse_jacobian() : SparseMatrix(at_.jacobian().sparseView());
+    const Index first = cycles_ == nullptr ? 0 : cycles_->field().size();  // columns that may join rounds
     std::vector<Eigen::Triplet<Complex>> entries;
     for (Index column = 0; column < size; ++column) {
       for (SparseMatrix::InnerIterator entry(jacobian, column); entry && entry.row() < size; ++entry) {
-        const Complex factor = cycles_ != nullptr && cycles_->joins_rounds(entry.row(), column) ? z : 1;
+        const Complex factor = column < first && cycles_->joins_rounds(entry.row(), column) ? z : 1;
         entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(column), factor * entry.value());
       }
       // that of a map is f' - 1

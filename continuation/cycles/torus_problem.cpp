@@ -27,23 +27,23 @@ void TorusProblem::fill(BorderedSolver& solver, const Pair& pair, const Vector& 
     return;
   }
   const SparseMatrix& whole = at_.sparse_jacobian();
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(2 * whole.nonZeros()));
-  for (Index column = 0; column < count_; ++column) {
-    for (SparseMatrix::InnerIterator entry(whole, column); entry; ++entry) {
-      const bool joins = orbits_->joins_rounds(entry.row(), column);
-      for (const Index i : {0, 1}) {
-        for (const Index j : {0, 1}) {
-          if (!joins && i != j) continue;
-          entries.emplace_back(static_cast<int>(i * count_ + entry.row()),
-                               static_cast<int>(j * count_ + column),
-                               (joins ? pair(j, i) : 1) * entry.value());
-        }
+  const Index first = orbits_->field().size();  // columns, of which some entries join rounds
+  SparseMatrix doubled(2 * count_, 2 * count_);
+  doubled.reserve(2 * (whole.nonZeros() + whole.leftCols(first).nonZeros()));
+  for (Index place = 0; place < 2 * count_; ++place) {
+    const Index j = place / count_;
+    const Index column = place % count_;
+    doubled.startVec(place);
+    for (const Index i : {0, 1}) {
+      if (i != j && column >= first) continue;
+      for (SparseMatrix::InnerIterator entry(whole, column); entry; ++entry) {
+        const bool joins = column < first && orbits_->joins_rounds(entry.row(), column);
+        if (joins || i == j)
+          doubled.insertBack(i * count_ + entry.row(), place) = (joins ? pair(j, i) : 1) * entry.value();
       }
     }
   }
-  SparseMatrix doubled(2 * count_, 2 * count_);
-  doubled.setFromTriplets(entries.begin(), entries.end());
+  doubled.finalize();
   solver.set_jacobian(doubled, scales);
 }
 

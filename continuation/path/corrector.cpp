@@ -85,7 +85,7 @@ bool Corrector::factor(const CurvePoint& point, const Vector& scale, const Vecto
   ++work_.factorizations;
   has_direction_ = false;
   factored_scale_ = scale;
-  if (linearization_.sparse() || size_ > 100) {
+  if (linearization_.sparse()) {
     factored_unknowns_ = point.unknowns;
     factored_regime_ = point.regime;
     factored_when_ = work_.evaluations;
@@ -157,7 +157,7 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     const double most = point.iterations > 0 || approached > 0 ? options_.tolerance : unseen();
     const bool good = point.residual <= tolerance_ && (stagnant || length <= most);
     // Of a sparse problem the value of F takes much less than factors.
-    const bool may_end = !good && !ended && !held && !last && !to_rounding && (linearization_.sparse() || size_ > 100);
+    const bool may_end = !good && !ended && !held && !last && !to_rounding && linearization_.sparse();
     if (may_end && length <= most) {
       ended = true;
       last_length = length;

@@ -24,7 +24,7 @@ std::optional<FactoredJacobian> Corrector::jacobian_at(const CurvePoint& point) 
   constexpr double most = 2;  // tolerances: `close` moves what has been corrected by one
   const bool is_last =
       factored_when_ == work_.evaluations && has_factors_at(point, most * options_.tolerance);
-  if (!is_last || !linearization_.sparse()) return std::nullopt;
+  if (!is_last) return std::nullopt;
   return FactoredJacobian{linearization_.sparse_jacobian(), solver_->rows_left(), &factored_scale_};
 }
 
@@ -91,7 +91,7 @@ void Corrector::remember(double length, double approached) {
 /// is known to be short enough: whether it went on, with the contraction.
 bool Corrector::go_on(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance,
                       double last) {
-  if (!(linearization_.sparse() || size_ > 100) || last < shortness * std::sqrt(options_.tolerance)) return false;
+  if (!linearization_.sparse() || last < shortness * std::sqrt(options_.tolerance)) return false;
   double first = 0;
   const auto solve = [&] {
     correction_(size_) = gap(point, origin, normal, distance);

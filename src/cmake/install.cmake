@@ -21,6 +21,7 @@ endif()
 # ---- For CMake: a component is a layer with those below it, and asks for what these need ----
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/arcslip)
+string(REPLACE ";" " " dense "${dense_libraries}")
 string(REPLACE ";" " " libraries_of_sectors "${sector_libraries}")
 file(CONFIGURE OUTPUT arcslipConfig.cmake @ONLY CONTENT [[
 set(arcslip_components continuation mechanics problems files)
@@ -33,6 +34,7 @@ include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 3.4)
 find_dependency(Boost 1.74)
 find_dependency(fmt)
+arcslip_find(lapack "" "" @dense@)
 arcslip_find(suitesparse klu.h suitesparse klu amd colamd btf suitesparseconfig)
 if("mechanics" IN_LIST arcslip_wanted OR "problems" IN_LIST arcslip_wanted OR "files" IN_LIST arcslip_wanted)
   arcslip_find(superlu slu_zdefs.h superlu @libraries_of_sectors@)
@@ -60,6 +62,7 @@ install(FILES ${PROJECT_BINARY_DIR}/arcslipConfig.cmake ${PROJECT_BINARY_DIR}/ar
 # ---- For pkg-config, which wants a list of libraries instead of a package ----
 
 list(JOIN eigen_memory " -D" eigen_definitions)
+list(JOIN dense_libraries " -l" flags_of_dense)
 list(JOIN sector_libraries " -l" flags_of_sectors)
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig
            OUTPUT_VARIABLE to_prefix)
@@ -80,6 +83,6 @@ Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@ @libraries@
 endfunction()
 
 arcslip_pkg_config(arcslip-continuation "Continuation and bifurcation of problems that are smooth in pieces"
-  "eigen3 >= 3.4 fmt" "-larcslip_continuation -lklu -lamd -lcolamd -lbtf -lsuitesparseconfig")
+  "eigen3 >= 3.4 fmt" "-larcslip_continuation -lklu -lamd -lcolamd -lbtf -lsuitesparseconfig -l${flags_of_dense}")
 arcslip_pkg_config(arcslip "${PROJECT_DESCRIPTION}" "arcslip-continuation nlohmann_json sqlite3"
   "-larcslip_files -larcslip_problems -larcslip_continuation -larcslip_mechanics -l${flags_of_sectors} -pthread")

@@ -2,15 +2,14 @@
 
 // Dense bordered systems, by LU with partial pivoting.
 
-#include <Eigen/LU>
 #include <vector>
 
 #include "arcslip/continuation/linear/bordered_solver.hpp"
 
 namespace arcslip::continuation {
 
-/// Up to 100 rows, where blocks do not pay, columns are eliminated one by one; beyond, Eigen's blocked
-/// factorisation takes over. Nothing is allocated after construction.
+/// Up to 100 rows, where blocks do not pay, columns are eliminated one by one; beyond, LAPACK takes over.
+/// Nothing is allocated after construction.
 class DenseBorderedSolver final : public BorderedSolver {
  public:
   /// For n = `size` unknowns; neither number may be negative.
@@ -28,14 +27,12 @@ class DenseBorderedSolver final : public BorderedSolver {
   bool small() const { return matrix_.rows() <= 100; }
   void set_borders();
   double factor_small();
+  double factor_large();
   void eliminate(Index j);  // the columns before j from column j
 
   Matrix matrix_;
-  Matrix factors_;             // small: unit lower and upper triangle in one
-  std::vector<Index> pivots_;  // small: row exchanged with row i
-  Eigen::PartialPivLU<Matrix> lu_;
-  Vector solution_;
-  std::vector<char> seen_;  // of a permutation
+  Matrix factors_;           // unit lower and upper triangle in one
+  std::vector<int> pivots_;  // row exchanged with row i, the first being 1
 };
 
 }  // namespace arcslip::continuation

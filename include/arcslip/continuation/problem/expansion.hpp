@@ -39,7 +39,8 @@ struct Estimated {
 };
 
 /// Calls `find(expansion, numbers)` with reaches, each half of the one before, and gives the numbers of those
-/// that agree best, or first to rounding: once where series are exact. `find` returns false where there are none.
+/// that agree best, or first to rounding: once where series are exact. `find` returns false where there are
+/// none.
 template <class Find>
 Estimated with_best_reach(const Problem& problem, Vector& numbers, const Find& find) {
   constexpr double longest = 0.4;
