@@ -30,7 +30,26 @@ bool ends_on_extremum(StepSearch& step, std::size_t slope, int before) {
   return node && before * node->slope < 0;
 }
 
-/// Pairs of them are left to the step, which has to resolve the observable.
+/// The first of them, as the signs at both ends of the step tell, or, where the greatest of several functions
+/// is another one at the end, as these do beside the corners between.
+Zero first_extremum(StepSearch& step, std::size_t m, int before, double after, bool changes) {
+  const auto i = static_cast<Index>(m);
+  const std::size_t slope = step.readings.slope(i);
+  const Step& taken = step.stepper.step();
+  const bool is_rough = step.stepper.has_rough_extrema();
+  if (changes && is_rough) return where_line_vanishes(taken.from[m].slope, after, step.upper());
+  const Zero zero = step.turn(slope, before, changes);
+  const bool has_corner = taken.from[m].piece != taken.to[m].piece;
+  if (before == 0 || changes || zero.state != Zero::State::absent || !has_corner || is_rough) return zero;
+  constexpr double just_behind = 1e-6;  // of the step: where it begins on a corner
+  double from = 0;
+  if (sign_of(step.readings.value(slope, from).value_or(0)) != before) from = just_behind * step.upper();
+  if (sign_of(step.readings.value(slope, from).value_or(0)) != before) return zero;
+  return ZeroSearch(step.stepper, step.readings)
+      .first_of_pieces({slope, step.readings.piece(i)}, before, false, from, step.upper());
+}
+
+/// Pairs of them on one piece are left to the step, which has to resolve the observable.
 void search_extrema(StepSearch& step) {
   for (Index i = 0; i < step.stepper.monitors().tracked_count() && step.solved(); ++i) {
     const auto m = static_cast<std::size_t>(i);
@@ -39,12 +58,9 @@ void search_extrema(StepSearch& step) {
     const double after = step.at_upper(slope, sign_of_slope(step.stepper, m, step.stepper.step().to[m]));
     const bool changes = before * sign_of(after) < 0 || ends_on_extremum(step, slope, before);
     if (changes && step.stepper.is_near_meeting()) continue;
-    const bool is_rough = changes && step.stepper.has_rough_extrema();
-    const Step& taken = step.stepper.step();
-    step.note(observable_extrema, before > 0 ? PointType::peak : PointType::trough, i,
-              is_rough ? where_line_vanishes(taken.from[m].slope, step.at_upper(slope, taken.to[m].slope),
-                                             step.upper())
-                       : step.turn(slope, before, changes));
+    step.note(
+        observable_extrema, before > 0 ? PointType::peak : PointType::trough, i,
+        first_extremum(step, m, before, step.at_upper(slope, step.stepper.step().to[m].slope), changes));
   }
 }
 

@@ -37,9 +37,11 @@ void Monitors::look(const CurvePoint& point, const Vector& scale, const Vector& 
   const Index n = problem_.size();
   const auto add = [&](double value) { out.push_back({value, rate(gradient_, parameter_, scale, slope)}); };
   for (const Index which : tracked_) {
+    gradient_.piece = 0;
     add(problem_.observe(point.unknowns, point.parameters, point.regime, which, gradient_));
     out.back().reach = gradient_.unknowns.cwiseProduct(point.scale.head(n)).norm() / std::sqrt(n) +
                        std::abs(gradient_.parameters(parameter_) * point.scale(n));
+    out.back().piece = gradient_.piece;
   }
   for (int b = 0; b < problem_.border_count(point.regime); ++b) {
     add(problem_.border(point.unknowns, point.parameters, point.regime, b, &gradient_));

@@ -14,6 +14,8 @@ void read_slopes(double parameter_rate, const std::vector<Monitor>& monitors, In
                  std::vector<double>& values) {
   values.push_back(parameter_rate);
   for (Index i = 0; i < tracked; ++i) values.push_back(monitors[static_cast<std::size_t>(i)].slope);
+  for (Index i = 0; i < tracked; ++i)
+    values.push_back(static_cast<double>(monitors[static_cast<std::size_t>(i)].piece));
 }
 
 void read_functions(const std::vector<double>& functions, const ComplexVector& eigenvalues,

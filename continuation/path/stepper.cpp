@@ -95,9 +95,12 @@ void Stepper::restore(const Progress& progress) {
   }
   step_.here = progress.here;
   predictor_.set_bends(progress.bends);
-  at_here_ = progress.monitors;  // without their reach
+  at_here_ = progress.monitors;  // without what follows
   monitors_.look(step_.here, step_.here.scale, step_.here.tangent, step_.to);
-  for (std::size_t i = 0; i < at_here_.size(); ++i) at_here_[i].reach = step_.to[i].reach;
+  for (std::size_t i = 0; i < at_here_.size(); ++i) {
+    at_here_[i].reach = step_.to[i].reach;
+    at_here_[i].piece = step_.to[i].piece;
+  }
   step_.past = progress.past;
   set_moved(progress.last_value);
   revision_ = problem_.revision() - progress.rescaled;

@@ -10,6 +10,7 @@ double HarmonicProblem::Observation::largest(const Quantity& quantity) {
   Index found = 0;
   const double most = of_sectors(quantity).cwiseAbs().maxCoeff(&found);
   if (gradient_ == nullptr) return most;
+  gradient_->piece = found;
   Quantity own = quantity;
   own.which += found * in_sector(quantity.of);
   return amplitude(own, 1);

@@ -309,3 +309,60 @@ TEST_CASE("A trough at a corner is told although a peak follows at once") {
   CHECK_THAT(peaks[0].parameters(0), WithinAbs(corner + way, 1e-10));
   CHECK(of_type(branch, PointType::event).size() == 1);
 }
+
+namespace {
+
+/// u = p, of which the greater one of two functions is told: up to the corner one falls, behind it the other
+/// rises, and falls again from `way` on.
+class GreaterOfTwo : public ScalarProblem {
+ public:
+  GreaterOfTwo(double corner, double way)
+      : ScalarProblem(
+            {"p"}, [](double u, const Vector& p) { return u - p(0); },
+            [](double, const Vector&) { return 1.0; }, {[](double, const Vector&) { return -1.0; }}),
+        corner_(corner),
+        way_(way) {}
+
+  void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override {
+    Gradient gradient{Vector(1), Vector(1)};
+    values = Vector::Constant(1, observe(u, p, regime, 0, gradient));
+  }
+  double observe(const Vector& u, const Vector& /*p*/, const Regime& /*regime*/, Index /*which*/,
+                 Gradient& gradient) const override {
+    const double x = u(0) - corner_;
+    gradient.piece = x > 0 ? 1 : 0;
+    gradient.unknowns(0) = x > 0 ? way_ - x : -0.1;
+    gradient.parameters.setZero();
+    return 1 + (x > 0 ? way_ * x - 0.5 * x * x : -0.1 * x);
+  }
+
+ private:
+  double corner_;
+  double way_;
+};
+
+}  // namespace
+
+TEST_CASE("A trough at a corner between pieces and the peak beside it are told, both within one step") {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> part(0.2, 0.6);
+  const double way = GENERATE(1e-3, 1e-2, 3e-2);
+  const double max_step = GENERATE(0.03, 0.1, 0.3);
+  const bool back = GENERATE(false, true);
+  for (int i = 0; i < 20; ++i) {
+    const double corner = part(random);
+    const GreaterOfTwo problem(corner, way);
+    TraceOptions options = back ? over("p", 1, 0) : over("p", 0, 1);
+    options.extrema_of = {"u"};
+    options.max_step = max_step;
+    const Branch branch = trace(problem, {vector_of({options.from}), vector_of({options.from})}, options);
+    CAPTURE(corner, way, max_step, back);
+    CHECK(branch.complete());
+    const auto troughs = of_type(branch, PointType::trough);
+    const auto peaks = of_type(branch, PointType::peak);
+    REQUIRE(troughs.size() == 1);
+    REQUIRE(peaks.size() == 1);
+    CHECK_THAT(troughs[0].parameters(0), WithinAbs(corner, 1e-10));
+    CHECK_THAT(peaks[0].parameters(0), WithinAbs(corner + way, 1e-9));
+  }
+}

@@ -26,6 +26,7 @@ struct Monitor {
   double value = 0;  ///< of the function
   double slope = 0;  ///< by s
   double reach = 0;  ///< by how much it changes with all that it depends on, by the scale of each; not kept
+  Index piece = 0;   ///< as Gradient has it; not kept
 };
 
 /// What changes its sign at branch points and at folds, at an earlier point.

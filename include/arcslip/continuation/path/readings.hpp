@@ -22,8 +22,11 @@ class Readings {
   /// Which of the values is which.
   static constexpr std::size_t rate = 0;
   std::size_t slope(Index observable) const { return 1 + static_cast<std::size_t>(observable); }
+  std::size_t piece(Index observable) const {
+    return slope(stepper_.monitors().tracked_count() + observable);
+  }
   std::size_t function(Index i) const {
-    return slope(stepper_.monitors().tracked_count()) + static_cast<std::size_t>(i);
+    return piece(stepper_.monitors().tracked_count()) + static_cast<std::size_t>(i);
   }
   std::size_t real_part(Index i) const { return function(functions_) + static_cast<std::size_t>(i); }
 

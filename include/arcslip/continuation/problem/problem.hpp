@@ -39,6 +39,7 @@ enum class Determinants {
 struct Gradient {
   Vector unknowns;    ///< n
   Vector parameters;  ///< number of parameters
+  Index piece = 0;    ///< of the greatest of several functions, which: it has corners between these
 };
 
 /// How fast the function changes as u and one parameter do (n + 1 entries).
