@@ -30,8 +30,43 @@ bool ends_on_extremum(StepSearch& step, std::size_t slope, int before) {
   return node && before * node->slope < 0;
 }
 
-/// The first of them, as the signs at both ends of the step tell, or, where the greatest of several functions
-/// is another one at the end, as these do beside the corners between.
+/// A slope at a place of the step, and on which piece of the observable that is.
+struct SlopeAt {
+  double s, value, piece;
+};
+
+/// Where the greatest of several functions is another one at the end than where it begins: the corner between
+/// them, at which the slope leaps up, may hide a trough there with the peak of the one that begins, or ends,
+/// from the signs at both ends. It is closed in until the slopes on that side are too large to vanish.
+Zero beside_corner(StepSearch& step, Index observable, int before) {
+  constexpr double finest = 1e-3;       // of the step
+  constexpr double just_behind = 1e-6;  // the same: where it begins on a corner
+  constexpr double surely = 4;
+  const ZeroSearch::PiecewiseFunction of{step.readings.slope(observable), step.readings.piece(observable)};
+  const auto at = [&](double s) -> std::optional<SlopeAt> {
+    const std::optional<double> slope = step.readings.value(of.value, s);
+    const std::optional<double> piece = step.readings.value(of.piece, s);
+    return slope && piece ? std::optional(SlopeAt{s, *slope, *piece}) : std::nullopt;
+  };
+  std::optional<SlopeAt> low = at(0);
+  if (low && sign_of(low->value) != before) low = at(just_behind * step.upper());
+  std::optional<SlopeAt> high = at(step.upper());
+  if (!low || !high || sign_of(low->value) != before) return {Zero::State::absent};
+  std::optional<SlopeAt>& turning = before < 0 ? high : low;
+  while (low->piece != high->piece && high->s - low->s > finest * step.upper()) {
+    const std::optional<SlopeAt> middle = at(0.5 * (low->s + high->s));
+    if (!middle) return {Zero::State::absent};
+    if (sign_of(middle->value) == -before)
+      return ZeroSearch(step.stepper, step.readings).first_of_pieces(of, before, false, low->s, middle->s);
+    const bool tells = middle->piece == turning->piece;
+    const double reach = surely * std::abs(middle->value - turning->value);  // as wide again
+    (middle->piece == low->piece ? low : high) = middle;
+    if (tells && std::abs(middle->value) > reach) return {Zero::State::absent};
+  }
+  return {Zero::State::absent};
+}
+
+/// The first of them, as the signs at both ends of the step tell, or, beside a corner, those in between.
 Zero first_extremum(StepSearch& step, std::size_t m, int before, double after, bool changes) {
   const auto i = static_cast<Index>(m);
   const std::size_t slope = step.readings.slope(i);
@@ -41,12 +76,7 @@ Zero first_extremum(StepSearch& step, std::size_t m, int before, double after, b
   const Zero zero = step.turn(slope, before, changes);
   const bool has_corner = taken.from[m].piece != taken.to[m].piece;
   if (before == 0 || changes || zero.state != Zero::State::absent || !has_corner || is_rough) return zero;
-  constexpr double just_behind = 1e-6;  // of the step: where it begins on a corner
-  double from = 0;
-  if (sign_of(step.readings.value(slope, from).value_or(0)) != before) from = just_behind * step.upper();
-  if (sign_of(step.readings.value(slope, from).value_or(0)) != before) return zero;
-  return ZeroSearch(step.stepper, step.readings)
-      .first_of_pieces({slope, step.readings.piece(i)}, before, false, from, step.upper());
+  return beside_corner(step, i, before);
 }
 
 /// Pairs of them on one piece are left to the step, which has to resolve the observable.

@@ -7,10 +7,12 @@ namespace arcslip::problems {
 /// Of the motions of all sectors the largest amplitude, with the gradient of the first one that has it: where
 /// several have, it is a corner, but along a branch on which they are alike they change alike.
 double HarmonicProblem::Observation::largest(const Quantity& quantity) {
+  constexpr double alike = 1e-9;
   Index found = 0;
   const double most = of_sectors(quantity).cwiseAbs().maxCoeff(&found);
   if (gradient_ == nullptr) return most;
-  gradient_->piece = found;
+  gradient_->piece = 0;
+  while (std::abs(sectors_(gradient_->piece)) < (1 - alike) * most) ++gradient_->piece;
   Quantity own = quantity;
   own.which += found * in_sector(quantity.of);
   return amplitude(own, 1);
