@@ -54,7 +54,7 @@ double BoundaryProblem::observe(const Vector& u, const Vector& /*p*/, const Regi
   gradient.parameters.setZero();
   const Index on_orbit = which - boundary_->free();
   const Index at_end = on_orbit - (2 * told() + 1);
-  if (on_orbit >= 0 && at_end < 0) return observed_on_orbit(*this, u, regime, on_orbit, gradient.unknowns);
+  if (on_orbit >= 0 && at_end < 0) return observed_on_orbit(*this, u, regime, on_orbit, gradient);
   const Index place = on_orbit < 0 ? told() + which : place_of(at_end / 2, at_end % 2 == 1);
   gradient.unknowns(place) = 1;
   return u(place);

@@ -109,7 +109,7 @@ double CycleProblem::observe(const Vector& u, const Vector& p, const Regime& reg
                              Gradient& gradient) const {
   gradient.unknowns.setZero();
   gradient.parameters.setZero();
-  if (which > 0) return observed_on_orbit(*this, u, regime, which - 1, gradient.unknowns);
+  if (which > 0) return observed_on_orbit(*this, u, regime, which - 1, gradient);
   if (has_duration()) gradient.unknowns(size() - 1) = 1;
   return duration(u, p, &gradient.parameters);
 }

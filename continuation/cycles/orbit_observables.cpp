@@ -21,16 +21,18 @@ double summit(const Slope& slope, double low, double high) {
   return 0.5 * (below + above);
 }
 
-/// The largest value of an unknown times a sign, and by which nodes.
+/// The largest value of an unknown times a sign, by which nodes and at which part of the orbit.
 struct Extremum {
   double value = 0;
   Index first = 0;  // node
   Vector weights;
+  double place = 0;
 };
 
 Extremum extremum(const OrbitProblem& problem, const Vector& u, const Regime& regime, Index unknown,
                   double sign) {
-  const CollocationRule& rule = problem.frame(regime).mesh.rule();
+  const OrbitMesh& mesh = problem.frame(regime).mesh;
+  const CollocationRule& rule = mesh.rule();
   const Vector values = sign * problem.orbit(u).row(unknown).transpose();
   const Index m = problem.degree();
   Index highest = 0;
@@ -38,28 +40,38 @@ Extremum extremum(const OrbitProblem& problem, const Vector& u, const Regime& re
   constexpr double closed = 1e-6;  // of how far it goes
   const bool goes_on =
       rule.waves() > 0 && std::abs(values(m) - values(0)) <= closed * (values(highest) - values.minCoeff());
-  Extremum best{values(highest), highest, Vector::Ones(1)};
+  Extremum best{values(highest), highest, Vector::Ones(1), mesh.place(highest)};
   Vector weights;
   Vector slopes;
-  const auto look = [&](Index interval) {  // finds the zero of the slope about the highest of many values
+  Vector seen;
+  const double last = static_cast<double>(rule.looks().rows() - 1);
+  constexpr double rises = 0.5;  // between nodes, and between looks, over what it changes by there: no more
+  const auto look = [&](Index interval) {
     const auto within = values.segment(interval * m, m + 1);
     const auto slope = [&](double s) {
       rule.at(s, weights, &slopes);
       return within.dot(slopes);
     };
-    const double last = static_cast<double>(rule.looks().rows() - 1);
-    Index top = 0;
-    (rule.looks() * within).maxCoeff(&top);
-    const double least = goes_on ? -1 : 0;
-    const double at = summit(slope, std::max(least, (static_cast<double>(top) - 1) / last),
-                             std::min(1 - least, (static_cast<double>(top) + 1) / last));
-    rule.at(at, weights);
-    const double value = within.dot(weights);
-    if (value > best.value) best = {value, interval * m, weights};
+    seen.noalias() = rule.looks() * within;
+    for (Index i = 0; i < seen.size(); ++i) {
+      const double before = seen(std::max<Index>(i - 1, 0));
+      const double behind = seen(std::min(i + 1, seen.size() - 1));
+      const bool is_top = seen(i) >= before && seen(i) >= behind;
+      if (!is_top || seen(i) + rises * (seen(i) - std::min(before, behind)) < best.value) continue;
+      const double least = goes_on ? -1 : 0;  // finds the zero of the slope about it
+      const double at = summit(slope, std::max(least, (static_cast<double>(i) - 1) / last),
+                               std::min(1 - least, (static_cast<double>(i) + 1) / last));
+      rule.at(at, weights);
+      const double value = within.dot(weights);
+      if (value > best.value)
+        best = {value, interval * m, weights, mesh.borders()(interval) + mesh.length(interval) * at};
+    }
   };
-  const Index j = std::min(highest / m, problem.intervals() - 1);
-  look(j);
-  if (highest % m == 0) look((j + problem.intervals() - 1) % problem.intervals());
+  for (Index j = 0; j < problem.intervals(); ++j) {
+    const auto within = values.segment(j * m, m + 1);
+    const double top = within.maxCoeff();
+    if (top + rises * (top - within.minCoeff()) >= values(highest)) look(j);
+  }
   best.value *= sign;
   return best;
 }
@@ -123,11 +135,13 @@ Vector observed_on_orbit(const OrbitProblem& problem, const Vector& u, const Reg
 }
 
 double observed_on_orbit(const OrbitProblem& problem, const Vector& u, const Regime& regime, Index which,
-                         Vector& gradient) {
-  if (which == 2 * shown(problem)) return norm(problem, u, regime, &gradient);
+                         Gradient& gradient) {
+  if (which == 2 * shown(problem)) return norm(problem, u, regime, &gradient.unknowns);
   const Extremum found = extremum(problem, u, regime, which / 2, which % 2 == 0 ? 1 : -1);
   for (Index k = 0; k < found.weights.size(); ++k)
-    gradient((found.first + k) * problem.field().size() + which / 2) = found.weights(k);
+    gradient.unknowns((found.first + k) * problem.field().size() + which / 2) = found.weights(k);
+  const double turn = found.place + 0.5 / orbit_pieces;
+  gradient.piece = static_cast<Index>(orbit_pieces * (turn - std::floor(turn)));
   return found.value;
 }
 

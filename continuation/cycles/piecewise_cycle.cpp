@@ -318,12 +318,13 @@ double PiecewiseCycle::observe(const Vector& u, const Vector& /*p*/, const Regim
   const double sign = extremum % 2 == 0 ? 1 : -1;
   double best = -std::numeric_limits<double>::infinity();
   for (Index k = 0; k < count_; ++k) {
-    Vector slopes = Vector::Zero(size());
+    Gradient one{Vector::Zero(size()), {}};
     const Index of_piece = 2 * (n_ * k + extremum / 2) + extremum % 2;
-    const double value = sign * observed_on_orbit(*this, u, regime, of_piece, slopes);
+    const double value = sign * observed_on_orbit(*this, u, regime, of_piece, one);
     if (value <= best) continue;
     best = value;
-    gradient.unknowns = slopes;
+    gradient.unknowns = one.unknowns;
+    gradient.piece = k * orbit_pieces + one.piece;
   }
   return sign * best;
 }

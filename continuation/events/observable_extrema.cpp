@@ -35,9 +35,9 @@ struct SlopeAt {
   double s, value, piece;
 };
 
-/// Where the greatest of several functions is another one at the end than where it begins: the corner between
-/// them, at which the slope leaps up, may hide a trough there with the peak of the one that begins, or ends,
-/// from the signs at both ends. It is closed in until the slopes on that side are too large to vanish.
+/// Where the greatest, or least, of several functions is another one at the end than where it begins: the
+/// corner between them, at which the slope leaps, may hide an extremum there, with one of a function beside
+/// it, from the signs at both ends. It is closed in until the slopes on both sides are too large to vanish.
 Zero beside_corner(StepSearch& step, Index observable, int before) {
   constexpr double finest = 1e-3;       // of the step
   constexpr double just_behind = 1e-6;  // the same: where it begins on a corner
@@ -52,16 +52,20 @@ Zero beside_corner(StepSearch& step, Index observable, int before) {
   if (low && sign_of(low->value) != before) low = at(just_behind * step.upper());
   std::optional<SlopeAt> high = at(step.upper());
   if (!low || !high || sign_of(low->value) != before) return {Zero::State::absent};
-  std::optional<SlopeAt>& turning = before < 0 ? high : low;
+  bool low_keeps = false;
+  bool high_keeps = false;
   while (low->piece != high->piece && high->s - low->s > finest * step.upper()) {
     const std::optional<SlopeAt> middle = at(0.5 * (low->s + high->s));
     if (!middle) return {Zero::State::absent};
     if (sign_of(middle->value) == -before)
       return ZeroSearch(step.stepper, step.readings).first_of_pieces(of, before, false, low->s, middle->s);
-    const bool tells = middle->piece == turning->piece;
-    const double reach = surely * std::abs(middle->value - turning->value);  // as wide again
-    (middle->piece == low->piece ? low : high) = middle;
-    if (tells && std::abs(middle->value) > reach) return {Zero::State::absent};
+    SlopeAt& end = middle->piece == low->piece ? *low : *high;
+    if (middle->piece == end.piece) {  // on the way that is left, as wide again
+      bool& keeps = &end == &*low ? low_keeps : high_keeps;
+      keeps = std::abs(middle->value) > surely * std::abs(middle->value - end.value);
+    }
+    end = *middle;
+    if (low_keeps && high_keeps) break;
   }
   return {Zero::State::absent};
 }

@@ -14,12 +14,12 @@ namespace {
 
 double sign_of(double value) { return static_cast<double>(value > 0) - static_cast<double>(value < 0); }
 
-/// Solves with the factors of `dgetrf_`, or of the transposed.
-void solve_with(const Matrix& factors, const std::vector<int>& pivots, char transposed, Vector& x) {
-  const int size = static_cast<int>(x.size());
+/// Solves with the factors of `dgetrf_`, or with the transposed.
+void solve_large(const Matrix& factors, const std::vector<int>& exchanges, char transposed, Vector& x) {
+  const auto size = static_cast<int>(x.size());
   const int one = 1;
   int info = 0;
-  dgetrs_(&transposed, &size, &one, factors.data(), &size, pivots.data(), x.data(), &size, &info);
+  dgetrs_(&transposed, &size, &one, factors.data(), &size, exchanges.data(), x.data(), &size, &info);
 }
 
 }  // namespace
@@ -28,7 +28,11 @@ DenseBorderedSolver::DenseBorderedSolver(Index size, Index borders)
     : BorderedSolver(size, borders),
       matrix_(Matrix::Zero(size + borders, size + borders)),
       factors_(matrix_),
-      pivots_(static_cast<std::size_t>(size + borders)) {}
+      pivots_(static_cast<std::size_t>(size + borders)),
+      exchanges_(pivots_.size()),
+      lu_(small() || large() ? 1 : size + borders),
+      solution_(size + borders),
+      seen_(small() ? 0 : static_cast<std::size_t>(size + borders)) {}
 
 void DenseBorderedSolver::set_jacobian(const Matrix& jacobian, const Vector& column_scale) {
   const Index n = size();
@@ -50,23 +54,29 @@ void DenseBorderedSolver::set_borders() {
 
 double DenseBorderedSolver::factor() {
   set_borders();
-  factors_ = matrix_;
-  return small() ? factor_small() : factor_large();
+  if (small()) return factor_small();
+  if (large()) return factor_large();
+  lu_.compute(matrix_);
+  double sign = permutation_sign(lu_.permutationP().indices().data(), seen_);
+  for (const double pivot : lu_.matrixLU().diagonal()) sign *= std::isfinite(pivot) ? sign_of(pivot) : 0;
+  return sign;
 }
 
 void DenseBorderedSolver::multiply_determinant(LogProduct& product) const {
-  for (const double pivot : factors_.diagonal()) product *= pivot;
+  for (const double pivot : small() || large() ? factors_.diagonal() : lu_.matrixLU().diagonal())
+    product *= pivot;
 }
 
 double DenseBorderedSolver::factor_large() {
-  const int n = static_cast<int>(factors_.rows());
+  const auto n = static_cast<int>(matrix_.rows());
   int info = 0;
-  dgetrf_(&n, &n, factors_.data(), &n, pivots_.data(), &info);
+  factors_ = matrix_;
+  dgetrf_(&n, &n, factors_.data(), &n, exchanges_.data(), &info);
   double sign = 1;
   for (int i = 0; i < n; ++i) {
     const double pivot = factors_(i, i);
     sign *= std::isfinite(pivot) ? sign_of(pivot) : 0;
-    if (pivots_[static_cast<std::size_t>(i)] != i + 1) sign = -sign;
+    if (exchanges_[static_cast<std::size_t>(i)] != i + 1) sign = -sign;
   }
   return sign;
 }
@@ -74,16 +84,17 @@ double DenseBorderedSolver::factor_large() {
 /// Column by column, from which the earlier columns are eliminated four at a time.
 double DenseBorderedSolver::factor_small() {
   const Index n = matrix_.rows();
+  factors_ = matrix_;
   double sign = 1;
   for (Index j = 0; j < n; ++j) {
     double* const x = factors_.col(j).data();
-    for (Index k = 0; k < j; ++k) std::swap(x[k], x[pivots_[static_cast<std::size_t>(k)] - 1]);
+    for (Index k = 0; k < j; ++k) std::swap(x[k], x[pivots_[static_cast<std::size_t>(k)]]);
     eliminate(j);
     Index best = j;
     for (Index i = j + 1; i < n; ++i) {
       if (std::abs(x[i]) > std::abs(x[best])) best = i;
     }
-    pivots_[static_cast<std::size_t>(j)] = static_cast<int>(best) + 1;
+    pivots_[static_cast<std::size_t>(j)] = best;
     if (best != j) {
       for (Index c = 0; c <= j; ++c) std::swap(factors_(j, c), factors_(best, c));
       sign = -sign;
@@ -119,9 +130,16 @@ void DenseBorderedSolver::eliminate(Index j) {
 
 void DenseBorderedSolver::solve(Vector& right_hand_side) {
   Vector& x = right_hand_side;
-  if (!small()) return solve_with(factors_, pivots_, 'N', x);
+  if (large()) return solve_large(factors_, exchanges_, 'N', x);
+  if (!small()) {
+    solution_.noalias() = lu_.permutationP() * x;
+    lu_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(solution_);
+    lu_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(solution_);
+    x = solution_;
+    return;
+  }
   const Index n = x.size();
-  for (Index k = 0; k < n; ++k) std::swap(x(k), x(pivots_[static_cast<std::size_t>(k)] - 1));
+  for (Index k = 0; k < n; ++k) std::swap(x(k), x(pivots_[static_cast<std::size_t>(k)]));
   for (Index k = 0; k < n; ++k) {
     for (Index i = k + 1; i < n; ++i) x(i) -= factors_(i, k) * x(k);
   }
@@ -133,10 +151,16 @@ void DenseBorderedSolver::solve(Vector& right_hand_side) {
 
 void DenseBorderedSolver::solve_transposed(Vector& right_hand_side) {
   Vector& x = right_hand_side;
-  if (!small()) return solve_with(factors_, pivots_, 'T', x);
-  factors_.triangularView<Eigen::Upper>().transpose().solveInPlace(x);
-  factors_.triangularView<Eigen::UnitLower>().transpose().solveInPlace(x);
-  for (Index k = x.size() - 1; k >= 0; --k) std::swap(x(k), x(pivots_[static_cast<std::size_t>(k)] - 1));
+  if (large()) return solve_large(factors_, exchanges_, 'T', x);
+  const auto& factors = small() ? factors_ : lu_.matrixLU();
+  factors.triangularView<Eigen::Upper>().transpose().solveInPlace(x);
+  factors.triangularView<Eigen::UnitLower>().transpose().solveInPlace(x);
+  if (small()) {
+    for (Index k = x.size() - 1; k >= 0; --k) std::swap(x(k), x(pivots_[static_cast<std::size_t>(k)]));
+  } else {
+    solution_.noalias() = lu_.permutationP().inverse() * x;
+    x = solution_;
+  }
 }
 
 }  // namespace arcslip::continuation

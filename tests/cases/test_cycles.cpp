@@ -352,3 +352,44 @@ from = 0
     }
   }
 }
+
+// x = d + cos(2 t) + c cos(t) is greatest at 0 or pi: 1 + d + c, which falls, up to the corner at `corner`,
+// then 1 + d - c, which rises as far as `way`, and falls again.
+TEST_CASE(
+    "A cycle whose greatest value is another one behind a corner has the extremum there and that beside it") {
+  const auto [intervals, max_step] = GENERATE(std::pair(16, 0.05), std::pair(16, 0.1), std::pair(25, 0.2));
+  const bool least = GENERATE(false, true);
+  for (const double corner : {0.3137, 0.4137, 0.52}) {
+    for (const double way : {0.003, 0.02}) {
+      const auto all = traced_of(fmt::format(R"case([model]
+kind = "forced"
+period = "2*pi"
+parameters = {{ p = 0 }}
+[model.definitions]
+s = "p - {0}"
+first = "-0.1*s"
+second = "{1}*s/4 - s^2/8"
+c = "(first - second)/2"
+[model.equations]
+x = "-x {4} ((first + second)/2 + cos(2*t) + c*cos(t) - 2*sin(2*t) - c*sin(t))"
+[branch]
+parameter = "p"
+from = 0
+to = 1
+extrema_of = ["{5}"]
+[continuation]
+max_step = {2}
+[cycles]
+tolerance = 1e-7
+intervals = {3}
+)case",
+                                             corner, way, max_step, intervals, least ? "-" : "+",
+                                             least ? "x_min" : "x_max"));
+      CAPTURE(corner, way, max_step, intervals, least);
+      const auto [at_corner, beside] = least ? std::pair(PointType::peak, PointType::trough)
+                                             : std::pair(PointType::trough, PointType::peak);
+      check_values(all_values_at(all, at_corner, "p"), {corner}, 1e-6);
+      check_values(all_values_at(all, beside, "p"), {corner + way}, 1e-4);
+    }
+  }
+}

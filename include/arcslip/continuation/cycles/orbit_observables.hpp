@@ -17,8 +17,12 @@ std::vector<Observable> orbit_observables(const OrbitProblem& problem);
 /// Their values.
 Vector observed_on_orbit(const OrbitProblem& problem, const Vector& u, const Regime& regime);
 
-/// That of one of them, and its derivatives by u, which come as zeros.
+/// That of one of them, and its derivatives by u, which come as zeros; where on the orbit an extremum lies
+/// tells its piece.
 double observed_on_orbit(const OrbitProblem& problem, const Vector& u, const Regime& regime, Index which,
-                         Vector& gradient);
+                         Gradient& gradient);
+
+/// How many of these there are on an orbit: its parts, which begin off the places that phases hold.
+constexpr Index orbit_pieces = 16;
 
 }  // namespace arcslip::continuation
