@@ -33,6 +33,7 @@ bool ends_on_extremum(StepSearch& step, std::size_t slope, int before) {
 /// A slope at a place of the step, and on which piece of the observable that is.
 struct SlopeAt {
   double s, value, piece;
+  bool keeps = false;  ///< its sign, on the way to the corner
 };
 
 /// Where the greatest, or least, of several functions is another one at the end than where it begins: the
@@ -51,32 +52,29 @@ Zero beside_corner(StepSearch& step, Index observable, int before) {
   std::optional<SlopeAt> low = at(0);
   if (low && sign_of(low->value) != before) low = at(just_behind * step.upper());
   std::optional<SlopeAt> high = at(step.upper());
-  if (!low || !high || sign_of(low->value) != before) return {Zero::State::absent};
-  bool low_keeps = false;
-  bool high_keeps = false;
-  while (low->piece != high->piece && high->s - low->s > finest * step.upper()) {
-    const std::optional<SlopeAt> middle = at(0.5 * (low->s + high->s));
+  const bool is_told = low && high && sign_of(low->value) == before && low->piece != high->piece;
+  while (is_told && !(low->keeps && high->keeps) && high->s - low->s > finest * step.upper()) {
+    std::optional<SlopeAt> middle = at(0.5 * (low->s + high->s));
     if (!middle) return {Zero::State::absent};
     if (sign_of(middle->value) == -before)
       return ZeroSearch(step.stepper, step.readings).first_of_pieces(of, before, false, low->s, middle->s);
     SlopeAt& end = middle->piece == low->piece ? *low : *high;
-    if (middle->piece == end.piece) {  // on the way that is left, as wide again
-      bool& keeps = &end == &*low ? low_keeps : high_keeps;
-      keeps = std::abs(middle->value) > surely * std::abs(middle->value - end.value);
-    }
+    // The way that is left is as wide as that to the end before.
+    middle->keeps =
+        middle->piece == end.piece && std::abs(middle->value) > surely * std::abs(middle->value - end.value);
     end = *middle;
-    if (low_keeps && high_keeps) break;
   }
   return {Zero::State::absent};
 }
 
 /// The first of them, as the signs at both ends of the step tell, or, beside a corner, those in between.
-Zero first_extremum(StepSearch& step, std::size_t m, int before, double after, bool changes) {
+Zero first_extremum(StepSearch& step, std::size_t m, int before, bool changes) {
   const auto i = static_cast<Index>(m);
   const std::size_t slope = step.readings.slope(i);
   const Step& taken = step.stepper.step();
   const bool is_rough = step.stepper.has_rough_extrema();
-  if (changes && is_rough) return where_line_vanishes(taken.from[m].slope, after, step.upper());
+  if (changes && is_rough)
+    return where_line_vanishes(taken.from[m].slope, step.at_upper(slope, taken.to[m].slope), step.upper());
   const Zero zero = step.turn(slope, before, changes);
   const bool has_corner = taken.from[m].piece != taken.to[m].piece;
   if (before == 0 || changes || zero.state != Zero::State::absent || !has_corner || is_rough) return zero;
@@ -92,9 +90,8 @@ void search_extrema(StepSearch& step) {
     const double after = step.at_upper(slope, sign_of_slope(step.stepper, m, step.stepper.step().to[m]));
     const bool changes = before * sign_of(after) < 0 || ends_on_extremum(step, slope, before);
     if (changes && step.stepper.is_near_meeting()) continue;
-    step.note(
-        observable_extrema, before > 0 ? PointType::peak : PointType::trough, i,
-        first_extremum(step, m, before, step.at_upper(slope, step.stepper.step().to[m].slope), changes));
+    step.note(observable_extrema, before > 0 ? PointType::peak : PointType::trough, i,
+              first_extremum(step, m, before, changes));
   }
 }
 

@@ -14,6 +14,13 @@ namespace {
 
 double sign_of(double value) { return static_cast<double>(value > 0) - static_cast<double>(value < 0); }
 
+/// That of the product of the pivots; 0 of what is no number.
+double sign_of_pivots(const Matrix& factors) {
+  double sign = 1;
+  for (const double pivot : factors.diagonal()) sign *= std::isfinite(pivot) ? sign_of(pivot) : 0;
+  return sign;
+}
+
 /// Solves with the factors of `dgetrf_`, or with the transposed.
 void solve_large(const Matrix& factors, const std::vector<int>& exchanges, char transposed, Vector& x) {
   const auto size = static_cast<int>(x.size());
@@ -57,9 +64,7 @@ double DenseBorderedSolver::factor() {
   if (small()) return factor_small();
   if (large()) return factor_large();
   lu_.compute(matrix_);
-  double sign = permutation_sign(lu_.permutationP().indices().data(), seen_);
-  for (const double pivot : lu_.matrixLU().diagonal()) sign *= std::isfinite(pivot) ? sign_of(pivot) : 0;
-  return sign;
+  return permutation_sign(lu_.permutationP().indices().data(), seen_) * sign_of_pivots(lu_.matrixLU());
 }
 
 void DenseBorderedSolver::multiply_determinant(LogProduct& product) const {
@@ -72,10 +77,8 @@ double DenseBorderedSolver::factor_large() {
   int info = 0;
   factors_ = matrix_;
   dgetrf_(&n, &n, factors_.data(), &n, exchanges_.data(), &info);
-  double sign = 1;
+  double sign = sign_of_pivots(factors_);
   for (int i = 0; i < n; ++i) {
-    const double pivot = factors_(i, i);
-    sign *= std::isfinite(pivot) ? sign_of(pivot) : 0;
     if (exchanges_[static_cast<std::size_t>(i)] != i + 1) sign = -sign;
   }
   return sign;

@@ -52,7 +52,8 @@ double sign_of_determinant(const Matrix& whole) { return whole.determinant() > 0
 
 TEST_CASE("Bordered systems of one to four borders are solved, transposed too, with the determinant's sign") {
   const bool sparse = GENERATE(false, true);
-  const Index n = GENERATE(1, 2, 7, 16, 40, 98, 298);  // on both sides of where the dense method changes
+  // On both sides of where the dense method changes.
+  const Index n = GENERATE(1, 2, 7, 12, 13, 14, 15, 16, 40, 98, 298);
   const Index borders = GENERATE(1, 2, 3, 4);
   CAPTURE(sparse, n, borders);
   const auto solver = make_bordered_solver(n, borders, sparse);

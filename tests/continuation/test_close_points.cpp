@@ -279,41 +279,46 @@ TEST_CASE("A zero of a function of pieces at the corner of a trough is told once
   }
 }
 
-TEST_CASE("A trough at a corner is told although a peak follows at once") {
-  // u falls up to the corner, rises behind it and falls again from `way` on.
-  constexpr double corner = 0.4137;
-  const double way = GENERATE(1e-8, 1e-6, 1e-4, 1e-3);
-  const double max_step = GENERATE(0.003, 0.01, 0.03, 0.1);
-  CAPTURE(way, max_step);
-  const auto slope = [=](double x) { return x > 0 ? way - x : -0.1; };
-  const ScalarProblem bent(
-      {"p"},
-      [=](double u, const Vector& p) {
-        const double x = p(0) - corner;
-        return u - 1 - (x > 0 ? way * x - 0.5 * x * x : -0.1 * x);
-      },
-      [](double, const Vector&) { return 1.0; },
-      {[=](double, const Vector& p) { return -slope(p(0) - corner); }});
-  TraceOptions options = over("p", 0, 1);
-  options.extrema_of = {"u"};
-  options.max_step = max_step;
-  options.events = {{"zero", [=](const Vector&, const Vector& p, const Regime&) { return p(0) - corner; },
-                     [=](const Vector&, const Vector& p, const Regime&) { return p(0) > 0.9 ? 1 : 0; }}};
-  const Branch branch = trace(bent, {vector_of({1}), vector_of({0})}, options);
+namespace {
+
+/// What falls up to a corner at x = 0, rises behind it and falls again from `way` on, and its slope.
+double bent_at(double x, double way) { return 1 + (x > 0 ? way * x - 0.5 * x * x : -0.1 * x); }
+double slope_at(double x, double way) { return x > 0 ? way - x : -0.1; }
+
+void check_pair(const Branch& branch, double corner, double way, double tolerance) {
   CHECK(branch.complete());
   const auto troughs = of_type(branch, PointType::trough);
   const auto peaks = of_type(branch, PointType::peak);
   REQUIRE(troughs.size() == 1);
   REQUIRE(peaks.size() == 1);
   CHECK_THAT(troughs[0].parameters(0), WithinAbs(corner, 1e-10));
-  CHECK_THAT(peaks[0].parameters(0), WithinAbs(corner + way, 1e-10));
+  CHECK_THAT(peaks[0].parameters(0), WithinAbs(corner + way, tolerance));
+}
+
+}  // namespace
+
+TEST_CASE("A trough at a corner is told although a peak follows at once") {
+  constexpr double corner = 0.4137;
+  const double way = GENERATE(1e-8, 1e-6, 1e-4, 1e-3);
+  const double max_step = GENERATE(0.003, 0.01, 0.03, 0.1);
+  CAPTURE(way, max_step);
+  const ScalarProblem bent(
+      {"p"}, [=](double u, const Vector& p) { return u - bent_at(p(0) - corner, way); },
+      [](double, const Vector&) { return 1.0; },
+      {[=](double, const Vector& p) { return -slope_at(p(0) - corner, way); }});
+  TraceOptions options = over("p", 0, 1);
+  options.extrema_of = {"u"};
+  options.max_step = max_step;
+  options.events = {{"zero", [=](const Vector&, const Vector& p, const Regime&) { return p(0) - corner; },
+                     [=](const Vector&, const Vector& p, const Regime&) { return p(0) > 0.9 ? 1 : 0; }}};
+  const Branch branch = trace(bent, {vector_of({1}), vector_of({0})}, options);
+  check_pair(branch, corner, way, 1e-10);
   CHECK(of_type(branch, PointType::event).size() == 1);
 }
 
 namespace {
 
-/// u = p, of which the greater one of two functions is told: up to the corner one falls, behind it the other
-/// rises, and falls again from `way` on.
+/// u = p, of which the same is told, as the greater one of two functions.
 class GreaterOfTwo : public ScalarProblem {
  public:
   GreaterOfTwo(double corner, double way)
@@ -331,9 +336,9 @@ class GreaterOfTwo : public ScalarProblem {
                  Gradient& gradient) const override {
     const double x = u(0) - corner_;
     gradient.piece = x > 0 ? 1 : 0;
-    gradient.unknowns(0) = x > 0 ? way_ - x : -0.1;
+    gradient.unknowns(0) = slope_at(x, way_);
     gradient.parameters.setZero();
-    return 1 + (x > 0 ? way_ * x - 0.5 * x * x : -0.1 * x);
+    return bent_at(x, way_);
   }
 
  private:
@@ -357,12 +362,6 @@ TEST_CASE("A trough at a corner between pieces and the peak beside it are told, 
     options.max_step = max_step;
     const Branch branch = trace(problem, {vector_of({options.from}), vector_of({options.from})}, options);
     CAPTURE(corner, way, max_step, back);
-    CHECK(branch.complete());
-    const auto troughs = of_type(branch, PointType::trough);
-    const auto peaks = of_type(branch, PointType::peak);
-    REQUIRE(troughs.size() == 1);
-    REQUIRE(peaks.size() == 1);
-    CHECK_THAT(troughs[0].parameters(0), WithinAbs(corner, 1e-10));
-    CHECK_THAT(peaks[0].parameters(0), WithinAbs(corner + way, 1e-9));
+    check_pair(branch, corner, way, 1e-9);
   }
 }
