@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 /// The folders in the order in which they may use one another; those of one row are one layer.
 constexpr std::array<std::string_view, 14> layers = {
-    "types",    "continuation",  "formulas", "motion", "structure",     "sectors", "elements",
-    "assembly", "time interval", "problems", "keys",   "cases results", "python",  "app"};
+    "types base", "continuation",  "formulas", "motion", "structure",     "sectors", "elements",
+    "assembly",   "time interval", "problems", "keys",   "cases results", "python",  "app"};
 
 /// The place of one of the layers among all.
 std::size_t layer(std::string_view folder) {

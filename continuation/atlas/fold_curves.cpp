@@ -1,10 +1,10 @@
 #include "arcslip/continuation/atlas/fold_curves.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "arcslip/continuation/points/normal_form.hpp"
 #include "arcslip/continuation/problem/second_derivative.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -20,13 +20,12 @@ class Shadow : public SurfaceFunction {
 
   bool look(const Matrix& /*plane*/, ZeroPoint& point) override {
     const Index n = surface_.size() - 2;
-    const Eigen::JacobiSVD<Matrix> values(surface_.derivative().leftCols(n),
-                                          Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Vector left = values.matrixU().col(n - 1);
+    const SingularAxes<Matrix> axes = singular_axes(Matrix(surface_.derivative().leftCols(n)));
+    Vector left = axes.directions.col(n - 1);
     point.sense = (surface_.derivative().rightCols<2>().transpose() * left).normalized();
     left = left.cwiseQuotient(surface_.row_lengths());
     const Guess at = surface_.solution(point.at);
-    const Vector right = values.matrixV().col(n - 1).cwiseProduct(surface_.scale());
+    const Vector right = axes.from.col(n - 1).cwiseProduct(surface_.scale());
     Vector along;
     if (!second_.contract(at.unknowns, at.parameters, at.regime, left, right,
                           Vector::Zero(at.parameters.size()), along))

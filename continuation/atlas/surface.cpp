@@ -1,6 +1,6 @@
 #include "arcslip/continuation/atlas/surface.hpp"
 
-#include <Eigen/QR>
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 
@@ -17,8 +17,7 @@ Surface::Surface(const Problem& problem, const std::array<AtlasSide, 2>& sides, 
       derivative_(size_, size_ + 2),
       row_lengths_(size_),
       square_(size_ + 2, size_ + 2),
-      step_(size_ + 2),
-      factors_(size_ + 2) {}
+      step_(size_ + 2) {}
 
 Vector Surface::place(const Guess& guess) const {
   Vector x(size());
@@ -74,8 +73,7 @@ bool Surface::settle(Vector& x, const Matrix& rows, const Eigen::Vector2d& value
     if (!evaluate(x)) return false;
     square_ << derivative_, rows;
     step_ << residual_, rows * x - values;
-    factors_.compute(square_);
-    step_ = factors_.solve(step_);
+    step_ = solution_of(square_, step_);
     const double length = step_.norm();
     const double size = 1 + x.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(length)) return false;
@@ -92,7 +90,7 @@ bool Surface::approach(Vector& x) {
   constexpr double settled = 1e-12;
   for (int i = 0; i < most; ++i) {
     if (!evaluate(x)) return false;
-    step_ = derivative_.completeOrthogonalDecomposition().solve(residual_);
+    step_ = shortest(derivative_, residual_);
     x -= step_;
     if (step_.norm() <= settled * (1 + x.lpNorm<Eigen::Infinity>())) return true;
   }
@@ -102,12 +100,9 @@ bool Surface::approach(Vector& x) {
 bool Surface::tangent(const Vector& x, const Matrix& like, Matrix& plane) {
   constexpr double singular = 1e-9;  // of rows of unit length
   if (!evaluate(x)) return false;
-  const Eigen::ColPivHouseholderQR<Matrix> factors(derivative_.transpose());
-  if (std::abs(factors.matrixQR()(size_ - 1, size_ - 1)) < singular) return false;
-  plane = Matrix::Zero(size(), 2);
-  plane.bottomRows<2>().setIdentity();
-  plane.applyOnTheLeft(factors.householderQ());
-  if (like.size() > 0 && (like.transpose() * plane).determinant() < 0) plane.col(1) *= -1;
+  plane = perpendicular(derivative_.transpose(), singular);
+  if (plane.cols() == 0) return false;
+  if (like.size() > 0 && Eigen::Matrix2d(like.transpose() * plane).determinant() < 0) plane.col(1) *= -1;
   return true;
 }
 
@@ -120,8 +115,7 @@ bool Surface::is_inside(const Vector& x) const {
 
 int Surface::orientation(const Matrix& plane) {
   square_ << derivative_, plane.transpose();
-  factors_.compute(square_);
-  return factors_.determinant() < 0 ? -1 : 1;
+  return arcslip::orientation(square_);
 }
 
 }  // namespace arcslip::continuation

@@ -6,10 +6,10 @@
 
 #include "arcslip/continuation/cycles/cycle_branch.hpp"
 #include "arcslip/continuation/cycles/doubling_problem.hpp"
-#include "arcslip/continuation/linear/eigenvalues.hpp"
 #include "arcslip/continuation/linear/nearest_eigenvalues.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {

@@ -1,6 +1,5 @@
 #include "arcslip/continuation/cycles/floquet.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +7,7 @@
 #include <utility>
 
 #include "arcslip/continuation/linear/borders.hpp"
-#include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -87,9 +86,8 @@ class Subspaces {
   void go_round() {
     const Matrix before = basis_;
     for (std::size_t j = 0; j < factors_.size(); ++j) {
-      const Eigen::HouseholderQR<Matrix> qr(factors_[j] * basis_);
-      basis_ = qr.householderQ();
-      triangles_[j] = qr.matrixQR().triangularView<Eigen::Upper>();
+      turned_.noalias() = factors_[j] * basis_;
+      orthogonalise(turned_, basis_, triangles_[j]);
     }
     turn_ = before.transpose() * basis_;
     find_ends();
@@ -141,6 +139,7 @@ class Subspaces {
   const std::vector<Matrix>& factors_;
   std::vector<Matrix> triangles_;  // of the last round
   Matrix basis_;
+  Matrix turned_;              // by one factor
   Matrix turn_;                // in the last round
   std::vector<double> apart_;  // what the first vectors have left of their subspace
   std::vector<Index> ends_;

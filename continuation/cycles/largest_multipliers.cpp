@@ -7,7 +7,7 @@
 
 #include "arcslip/continuation/cycles/floquet.hpp"
 #include "arcslip/continuation/linear/bordered_solver.hpp"
-#include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {

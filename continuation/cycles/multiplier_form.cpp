@@ -1,18 +1,16 @@
 #include "arcslip/continuation/cycles/multiplier_form.hpp"
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "arcslip/continuation/linear/borders.hpp"
+#include "arcslip/continuation/linear/complex_sparse_factors.hpp"
 #include "arcslip/continuation/problem/expansion.hpp"
 
 namespace arcslip::continuation {
 namespace {
-
-using ComplexSparse = Eigen::SparseMatrix<Complex>;
 
 /// The equations of a cycle, or of a fixed point.
 class Rounds {
@@ -119,38 +117,20 @@ class Rounds {
   bool exists_ = false;
 };
 
-/// A factored matrix, bordered or not.
-class Factors {
- public:
-  explicit Factors(const ComplexSparse& matrix) { factors_.compute(matrix); }
-
-  /// [matrix, b; c^H, 0]
-  Factors(const ComplexSparse& matrix, const ComplexVector& b, const ComplexVector& c) {
-    const Index n = matrix.rows();
-    ComplexSparse whole(n + 1, n + 1);
-    std::vector<Eigen::Triplet<Complex>> entries;
-    for (Index column = 0; column < n; ++column) {
-      for (ComplexSparse::InnerIterator entry(matrix, column); entry; ++entry)
-        entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(column), entry.value());
-      entries.emplace_back(static_cast<int>(column), static_cast<int>(n), b(column));
-      entries.emplace_back(static_cast<int>(n), static_cast<int>(column), std::conj(c(column)));
-    }
-    whole.setFromTriplets(entries.begin(), entries.end());
-    factors_.compute(whole);
+/// [matrix, b; c^H, 0]
+ComplexSparse bordered(const ComplexSparse& matrix, const ComplexVector& b, const ComplexVector& c) {
+  const Index n = matrix.rows();
+  std::vector<Eigen::Triplet<Complex>> entries;
+  for (Index column = 0; column < n; ++column) {
+    for (ComplexSparse::InnerIterator entry(matrix, column); entry; ++entry)
+      entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(column), entry.value());
+    entries.emplace_back(static_cast<int>(column), static_cast<int>(n), b(column));
+    entries.emplace_back(static_cast<int>(n), static_cast<int>(column), std::conj(c(column)));
   }
-
-  ComplexVector solve(const ComplexVector& right) const {
-    if (factors_.info() != Eigen::Success) return ComplexVector::Constant(right.size(), std::nan(""));
-    return factors_.solve(right);
-  }
-  ComplexVector solve_adjoint(const ComplexVector& right) {
-    if (factors_.info() != Eigen::Success) return ComplexVector::Constant(right.size(), std::nan(""));
-    return factors_.adjoint().solve(right);
-  }
-
- private:
-  Eigen::SparseLU<ComplexSparse> factors_;
-};
+  ComplexSparse whole(n + 1, n + 1);
+  whole.setFromTriplets(entries.begin(), entries.end());
+  return whole;
+}
 
 /// The right and the left null vector of a matrix that is singular but for how well its point is located.
 struct NullVectors {
@@ -160,14 +140,14 @@ struct NullVectors {
 NullVectors null_vectors(const ComplexSparse& matrix) {
   const Index n = matrix.rows();
   NullVectors found{continuation::spread(n, 1), continuation::spread(n, 2)};
-  Factors all_but_singular(matrix);
+  const ComplexSparseFactors all_but_singular(matrix);
   const ComplexVector left = all_but_singular.solve_adjoint(found.left).normalized();
   const ComplexVector right = all_but_singular.solve(left).normalized();
   if (right.allFinite()) return {right, all_but_singular.solve_adjoint(right).normalized()};
   ComplexVector unit = ComplexVector::Zero(n + 1);  // it is singular to the last digit
   unit(n) = 1;
   for (int i = 0; i < 2; ++i) {  // inverse iteration
-    Factors factors(matrix, found.left, found.right);
+    const ComplexSparseFactors factors(bordered(matrix, found.left, found.right));
     found.right = factors.solve(unit).head(n).normalized();
     found.left = factors.solve_adjoint(unit).head(n).normalized();
   }
@@ -256,8 +236,8 @@ class Reduction {
   Complex cubic(const ComplexVector& term) const { return -psi_.dot(term.head(psi_.size())) / weight_; }
 
   const Rounds& rounds_;
-  Factors steady_;                // at z = 1
-  std::optional<Factors> twice_;  // at the square of a multiplier that is not real
+  ComplexSparseFactors steady_;                // at z = 1
+  std::optional<ComplexSparseFactors> twice_;  // at the square of a multiplier that is not real
   ComplexVector v_;
   ComplexVector psi_;
   Complex weight_;

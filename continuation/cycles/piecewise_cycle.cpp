@@ -1,11 +1,11 @@
 #include "arcslip/continuation/cycles/piecewise_cycle.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
 #include "arcslip/continuation/cycles/floquet.hpp"
 #include "arcslip/continuation/cycles/orbit_observables.hpp"
+#include "arcslip/dense.hpp"
 #include "arcslip/zero_between.hpp"
 
 namespace arcslip::continuation {
@@ -207,8 +207,7 @@ ComplexVector PiecewiseCycle::multipliers_by(const Vector& u, const Vector& p, c
       return {};
     Matrix transfer = Matrix::Identity(n_, n_);
     for (const Matrix& one : all) transfer = one.block(n_ * k, n_ * k, n_, n_) * transfer;
-    const Matrix normal = by_unknowns.transpose();
-    const Matrix along = Matrix(Eigen::HouseholderQR<Matrix>(normal).householderQ()).rightCols(n_ - 1);
+    const Matrix along = perpendicular(by_unknowns.transpose());
     const double rate = (by_unknowns * velocity)(0);
     transfer -= velocity * (by_unknowns * transfer) / rate;
     onto.emplace_back(along.transpose() * transfer);

@@ -1,9 +1,9 @@
 // What is told of tori.
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "arcslip/continuation/cycles/torus.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -50,11 +50,9 @@ double Torus::highest(const Matrix& values, double sign) const {
   for (int round = 0; round < rounds; ++round) {
     const Matrix at = waves_at(place(0), count(0)).transpose() * coefficients * waves_at(place(1), count(1));
     value = std::max(value, at(0, 0));
-    const Eigen::Matrix2d bend = (Eigen::Matrix2d() << at(2, 0), at(1, 1), at(1, 1), at(0, 2)).finished();
-    Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix2d> factors;
-    factors.setThreshold(1e-6);  // it may not change with one of them
-    factors.compute(bend);
-    place -= factors.solve(Eigen::Vector2d(at(1, 0), at(0, 1)));
+    const Matrix bend{{at(2, 0), at(1, 1)}, {at(1, 1), at(0, 2)}};
+    constexpr double unchanged = 1e-6;  // it may not change with one of them
+    place -= least_squares_of(bend, unchanged)(Eigen::Vector2d(at(1, 0), at(0, 1)));
   }
   return sign * value;
 }

@@ -1,12 +1,11 @@
 #include "arcslip/continuation/linear/hill.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <tuple>
 
-#include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -87,7 +86,7 @@ double hill_determinant(const std::vector<ComplexMatrix>& coefficients, double w
   for (Index row = 0; row <= twice_h; ++row)  // to the size of -j i w, which the far ones approach
     hill.middleRows(row * n, n) /=
         std::hypot(1, w * (static_cast<double>(row) - 0.5 * static_cast<double>(twice_h)));
-  return hill.determinant();
+  return determinant_of(hill);
 }
 
 }  // namespace

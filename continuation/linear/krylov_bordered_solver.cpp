@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "arcslip/continuation/linear/borders.hpp"
-#include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "arcslip/continuation/linear/bordered_solver.hpp"
-#include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {

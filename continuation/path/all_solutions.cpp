@@ -7,6 +7,7 @@
 
 #include "arcslip/continuation/path/deflated_newton.hpp"
 #include "arcslip/continuation/path/switching.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -250,9 +251,8 @@ std::optional<DegreeCheck> check_degree(const Problem& problem, const std::vecto
     if (!((one.unknowns - centre).cwiseQuotient(radii).norm() < 1)) continue;
     if (!problem.evaluate(one.unknowns, one.parameters, one.regime, {&residual, &jacobian}))
       return std::nullopt;
-    const Eigen::PartialPivLU<Matrix> factors(jacobian);
-    if (!(factors.rcond() > regular)) return std::nullopt;
-    check.found += factors.determinant() > 0 ? 1 : -1;
+    if (!(reciprocal_condition(jacobian) > regular)) return std::nullopt;
+    check.found += orientation(jacobian);
   }
   return check;
 }

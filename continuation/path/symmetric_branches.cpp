@@ -1,9 +1,9 @@
 #include "arcslip/continuation/path/symmetric_branches.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "arcslip/continuation/problem/evaluation.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -81,13 +81,12 @@ LostSymmetries lost_symmetries(const Problem& problem, const SymmetryGroup& grou
   Matrix jacobian(problem.size(), problem.size());
   if (!continuation::evaluate(problem, point.unknowns, point.parameters, point.regime, {nullptr, &jacobian}))
     return lost;
-  Eigen::FullPivLU<Matrix> factors(jacobian * scale.asDiagonal());
-  const double largest = factors.maxPivot();
-  const bool vanishes = !(largest > tolerances.zero_eigenvalue);
-  factors.setThreshold(tolerances.zero_eigenvalue);
-  if (!vanishes && factors.dimensionOfKernel() == 0) return lost;
-  const Matrix null = vanishes ? Matrix::Identity(scale.size(), scale.size()) : Matrix(factors.kernel());
+  jacobian *= scale.asDiagonal();
+  const bool vanishes = !(jacobian.cwiseAbs().maxCoeff() > tolerances.zero_eigenvalue);
+  const Matrix null = vanishes ? Matrix::Identity(scale.size(), scale.size())
+                               : kernel_of(jacobian, tolerances.zero_eigenvalue);
   lost.null_vectors = null.cols();
+  if (null.cols() == 0) return lost;
   std::vector<bool> kept(group.order(), true);
   const Subgroup here = group.kept(point.unknowns, scale, tolerances.same_solution);
   for (Index j = 0; j < null.cols(); ++j) {

@@ -1,13 +1,12 @@
 #include "arcslip/continuation/points/centre_manifold.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SparseLU>
 #include <cmath>
 #include <functional>
 #include <random>
 
 #include "arcslip/continuation/linear/borders.hpp"
+#include "arcslip/continuation/linear/complex_sparse_factors.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -26,10 +25,9 @@ class ShiftedMatrix {
       matrix.topLeftCorner(n, n).diagonal().array() += z;
       matrix.topRightCorner(n, columns.cols()) = columns;
       matrix.bottomLeftCorner(columns.cols(), n) = rows.adjoint();
-      dense_.compute(matrix);
+      solver_ = solver_of(matrix);
       return;
     }
-    is_sparse_ = true;
     std::vector<Eigen::Triplet<Complex>> entries;
     const SparseMatrix& jacobian = at.sparse_jacobian();
     for (Index column = 0; column < n; ++column) {
@@ -44,21 +42,17 @@ class ShiftedMatrix {
         entries.emplace_back(static_cast<int>(n + k), place, std::conj(rows(column, k)));
       }
     }
-    Eigen::SparseMatrix<Complex> matrix(whole, whole);
+    ComplexSparse matrix(whole, whole);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    sparse_.compute(matrix);
+    solver_ = [factors = ComplexSparseFactors(matrix)](const ComplexVector& right) {
+      return factors.solve(right);
+    };
   }
 
-  ComplexVector solve(const ComplexVector& right) const {
-    if (!is_sparse_) return dense_.solve(right);
-    if (sparse_.info() != Eigen::Success) return ComplexVector::Constant(right.size(), std::nan(""));
-    return sparse_.solve(right);
-  }
+  ComplexVector solve(const ComplexVector& right) const { return solver_(right); }
 
  private:
-  bool is_sparse_ = false;
-  Eigen::PartialPivLU<ComplexMatrix> dense_;
-  Eigen::SparseLU<Eigen::SparseMatrix<Complex>> sparse_;
+  std::function<ComplexMatrix(const ComplexMatrix& right)> solver_;
 };
 
 /// All exponents of this order of so many variables.
@@ -218,7 +212,7 @@ bool CentreManifold::read(Expansion& expansion, int order, const std::vector<Exp
     values.row(row) = out.col(order).transpose().cast<Complex>();
     for (std::size_t i = 0; i < all.size(); ++i) powers(row, static_cast<Index>(i)) = power(lines[j], all[i]);
   }
-  const ComplexMatrix found = powers.colPivHouseholderQr().solve(values);
+  const ComplexMatrix found = shortest(powers, values);
   for (std::size_t i = 0; i < all.size(); ++i) terms[all[i]] = found.row(static_cast<Index>(i)).transpose();
   return true;
 }

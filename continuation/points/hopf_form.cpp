@@ -1,15 +1,14 @@
 #include "arcslip/continuation/points/hopf_form.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/SparseLU>
 #include <array>
 #include <cmath>
 #include <map>
 
-#include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "arcslip/continuation/linear/complex_sparse_factors.hpp"
 #include "arcslip/continuation/linear/nearest_eigenvalues.hpp"
 #include "arcslip/continuation/problem/linearization.hpp"
 #include "arcslip/continuation/problem/second_derivative.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -39,16 +38,13 @@ class Operator {
   /// The solution of (matrix - z) x = right.
   ComplexVector solve(const Vector& numbers, Complex z, const ComplexVector& right) const {
     if (is_sparse_) {
-      Eigen::SparseMatrix<Complex> identity(size_, size_);
+      ComplexSparse identity(size_, size_);
       identity.setIdentity();
-      const Eigen::SparseMatrix<Complex> shifted = sparse(numbers).cast<Complex>() - z * identity;
-      const Eigen::SparseLU<Eigen::SparseMatrix<Complex>> factors(shifted);
-      if (factors.info() != Eigen::Success) return ComplexVector::Constant(size_, std::nan(""));
-      return factors.solve(right);
+      return ComplexSparseFactors(sparse(numbers).cast<Complex>() - z * identity).solve(right);
     }
     ComplexMatrix shifted = numbers.reshaped(size_, size_).cast<Complex>();
     shifted.diagonal().array() -= z;
-    return shifted.partialPivLu().solve(right);
+    return solution_of(shifted, right);
   }
 
   Spectrum spectrum(const Vector& numbers, bool transposed) const {
@@ -60,7 +56,7 @@ class Operator {
     } else {
       const auto matrix = numbers.reshaped(size_, size_);
       found.values =
-          continuation::eigenvalues(transposed ? Matrix(matrix.transpose()) : Matrix(matrix), &found.vectors);
+          arcslip::eigenvalues(transposed ? Matrix(matrix.transpose()) : Matrix(matrix), &found.vectors);
     }
     return found;
   }

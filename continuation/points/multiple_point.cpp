@@ -1,7 +1,6 @@
 #include "arcslip/continuation/points/multiple_point.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "arcslip/continuation/linear/borders.hpp"
 #include "arcslip/continuation/problem/linearization.hpp"
 #include "arcslip/continuation/problem/second_derivative.hpp"
+#include "arcslip/dense.hpp"
 #include "arcslip/zero_between.hpp"
 
 namespace arcslip::continuation {
@@ -69,7 +69,7 @@ class DoublePoint {
   /// d in the problem's units, and back from there.
   Vector direction(const Eigen::Vector3d& y) const { return scale_.cwiseProduct(right_ * y); }
   Eigen::Vector3d coordinates(const Vector& d) const {
-    return right_.colPivHouseholderQr().solve(d.cwiseQuotient(scale_));
+    return shortest(right_, Vector(d.cwiseQuotient(scale_)));
   }
 
  private:
@@ -97,11 +97,6 @@ class DoublePoint {
   Matrix conditions_;  // G, 2 by 3
   std::array<Eigen::Matrix3d, 2> forms_;
 };
-
-Matrix orthonormal(const Matrix& columns) {
-  return Eigen::HouseholderQR<Matrix>(columns).householderQ() *
-         Matrix::Identity(columns.rows(), columns.cols());
-}
 
 bool DoublePoint::solve_borders() {
   linear_.fill(*solver_, scale_.head(n_));
@@ -185,7 +180,7 @@ void DoublePoint::correct() {
   Vector correction = Vector::Zero(n_ + 3);
   correction.head(n_) = -linear_.residual();
   solver_->solve(correction);
-  const Vector along = gradients.completeOrthogonalDecomposition().solve(values);
+  const Vector along = shortest(gradients, values);
   const Vector all = scale_.cwiseProduct(correction.head(n_ + 1) + right_ * along);
   at_.unknowns += all.head(n_);
   at_.parameters(active_) += all(n_);
@@ -246,8 +241,7 @@ class OtherBranches {
  public:
   OtherBranches(DoublePoint& point, const Eigen::Vector3d& own, double negligible)
       : point_(point), own_(own.normalized()), negligible_(negligible) {
-    const Eigen::Matrix3d basis = Eigen::HouseholderQR<Eigen::Matrix<double, 3, 1>>(own_).householderQ();
-    across_ = basis.rightCols(2);
+    across_ = perpendicular(own_);
     for (Index j = 0; j < 2; ++j) b_.col(j) = 2 * point.quadratic(own_, across_.col(j));
   }
 

@@ -1,12 +1,12 @@
 #include "arcslip/continuation/points/pair_problem.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "arcslip/continuation/linear/borders.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -145,9 +145,9 @@ bool PairProblem::adapt(const BasePoint& point) {
   const double kappa = point.extras(0);
   const bool goes_on = !frame_.isZero(0) && solve_space() && has_pair_of(kappa);
   if (!goes_on && !begin(kappa)) return false;
-  const Eigen::HouseholderQR<Matrix> factors(space_);
-  const Pair triangle = factors.matrixQR().topRows(2).triangularView<Eigen::Upper>();
-  frame_ = factors.householderQ() * Matrix::Identity(count_, 2);
+  Matrix upper;
+  orthogonalise(space_, frame_, upper);
+  const Pair triangle = upper;
   start_ = triangle * pair_ * triangle.inverse();
   if (!frame_.allFinite() || !start_.allFinite()) return false;
   slope_ = 1;

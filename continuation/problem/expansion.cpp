@@ -1,7 +1,8 @@
 #include "arcslip/continuation/problem/expansion.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
+
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -20,7 +21,7 @@ Vector places() {
 Matrix to_coefficients(const Vector& x) {
   Matrix powers = Matrix::Ones(points, points);
   for (Index k = 1; k < points; ++k) powers.col(k) = powers.col(k - 1).cwiseProduct(x);
-  return powers.fullPivLu().inverse();
+  return inverse_of(powers).value();
 }
 
 /// u(h), or u'(h).

@@ -8,12 +8,12 @@
 #include <stdexcept>
 
 #include "arcslip/continuation/cycles/torus_problem.hpp"
-#include "arcslip/continuation/linear/eigenvalues.hpp"
 #include "arcslip/continuation/linear/nearest_eigenvalues.hpp"
 #include "arcslip/continuation/points/extended_problem.hpp"
 #include "arcslip/continuation/problem/directional_check.hpp"
 #include "arcslip/continuation/problem/evaluation.hpp"
 #include "arcslip/continuation/problem/guess.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -63,7 +63,7 @@ bool Problem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime
   Matrix jacobian;
   if (!jacobian_at(*this, u, p, regime, jacobian)) return false;
   if (returns) jacobian.diagonal().array() += 1;
-  values = continuation::eigenvalues(jacobian);
+  values = arcslip::eigenvalues(jacobian);
   if (returns) std::transform(values.begin(), values.end(), values.begin(), log_of_multiplier);
   return values.allFinite();
 }
@@ -79,7 +79,7 @@ void Problem::test(const Vector& u, const Vector& p, const Regime& regime, Vecto
   Matrix jacobian;
   const bool exists = jacobian_at(*this, u, p, regime, jacobian);
   jacobian.diagonal().array() += 2;
-  values(0) = exists ? jacobian.determinant() : std::nan("");
+  values(0) = exists ? determinant_of(jacobian) : std::nan("");
 }
 
 std::unique_ptr<ExtendedProblem> Problem::special(PointType type, Index active, const Guess& at,

@@ -1,12 +1,11 @@
 #include "arcslip/continuation/problem/symmetric_problem.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "arcslip/continuation/problem/evaluation.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -19,29 +18,28 @@ class Restricted {
       : matrix_(size * (space.transpose() * (jacobian * space))) {
     constexpr double little = 1e-2;
     for (auto column : matrix_.colwise()) column /= std::hypot(column.norm(), little);
-    factors_.compute(matrix_);
+    pivots_ = pivots_of(matrix_);
   }
 
   /// How far it is from being singular: the least pivot.
-  double nearness() const { return factors_.matrixLU().diagonal().cwiseAbs().minCoeff(); }
+  double nearness() const { return pivots_.sizes.minCoeff(); }
 
   /// The product of all singular values s over sqrt(s^2 + small^2), with the determinant's sign: as smooth as
   /// that, but of size 1 wherever none of them is small. 0 where one is but for rounding.
   double determinant() const {
     constexpr double small = 0.3;
-    const auto pivots = factors_.matrixLU().diagonal().array();
-    const double rounding = 1e2 * std::numeric_limits<double>::epsilon() * static_cast<double>(pivots.size());
+    const double rounding =
+        1e2 * std::numeric_limits<double>::epsilon() * static_cast<double>(matrix_.rows());
     if (!(nearness() > rounding)) return 0;
     Matrix squares = matrix_.transpose() * matrix_;
     squares.diagonal().array() += small * small;
-    const Eigen::LLT<Matrix> roots(squares);
-    const double sign = factors_.permutationP().determinant() * ((pivots < 0).count() % 2 == 0 ? 1 : -1);
-    return sign * std::exp(pivots.abs().log().sum() - roots.matrixLLT().diagonal().array().log().sum());
+    const auto log = [](const Pivots& pivots) { return pivots.sizes.array().log().sum(); };
+    return pivots_.sign * std::exp(log(pivots_) - 0.5 * log(pivots_of(squares)));
   }
 
  private:
   Matrix matrix_;
-  Eigen::PartialPivLU<Matrix> factors_;
+  Pivots pivots_;
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -10,6 +9,8 @@
 #include <random>
 #include <set>
 #include <stdexcept>
+
+#include "arcslip/dense.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -36,9 +37,7 @@ SparseMatrix range_of(const Matrix& projection) {
 }
 
 /// The logarithm of the size of a determinant.
-double log_size(const Matrix& matrix) {
-  return Eigen::PartialPivLU<Matrix>(matrix).matrixLU().diagonal().array().abs().log().sum();
-}
+double log_size(const Matrix& matrix) { return pivots_of(matrix).sizes.array().log().sum(); }
 
 }  // namespace
 

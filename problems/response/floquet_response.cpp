@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "arcslip/assembly/structures.hpp"
+#include "arcslip/dense.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
-#include "arcslip/structure/dense.hpp"
 
 namespace arcslip::problems {
 namespace {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "arcslip/continuation/problem/one_piece.hpp"
+#include "arcslip/dense.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
-#include "arcslip/structure/dense.hpp"
 
 namespace arcslip::problems {
 

@@ -1,9 +1,9 @@
 #include "harmonic_preconditioner.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/dense.hpp"
 #include "arcslip/structure/block_circulant.hpp"
 
 namespace arcslip::problems {
@@ -63,10 +63,10 @@ void HarmonicPreconditioner::keep(const std::vector<ComplexMatrix>& waves,
     common.push_back(median(all, each_));
     for (Index m = 0; m < count_; ++m) {
       const ComplexMatrix rest = all.middleCols(m * each_, each_) - common.back();
-      const Eigen::JacobiSVD<ComplexMatrix> parts(rest, Eigen::ComputeFullU | Eigen::ComputeFullV);
+      const SingularAxes<ComplexMatrix> parts = singular_axes(rest);
       for (Index k = 0; k < each_; ++k) {
-        const double size = parts.singularValues()(k);
-        if (size > weak) kept_.push_back({m, a, size, parts.matrixU().col(k), parts.matrixV().col(k)});
+        const double size = parts.sizes(k);
+        if (size > weak) kept_.push_back({m, a, size, parts.directions.col(k), parts.from.col(k)});
       }
     }
   }

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "arcslip/dense.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
-#include "arcslip/structure/dense.hpp"
 
 namespace arcslip::problems {
 

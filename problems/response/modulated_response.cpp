@@ -7,8 +7,8 @@
 #include <limits>
 #include <map>
 
+#include "arcslip/dense.hpp"
 #include "arcslip/motion/swing.hpp"
-#include "arcslip/structure/dense.hpp"
 
 namespace arcslip::problems {
 namespace {

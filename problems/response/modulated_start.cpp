@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "arcslip/assembly/structures.hpp"
+#include "arcslip/dense.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
 #include "arcslip/problems/response/modulated_response.hpp"
-#include "arcslip/structure/dense.hpp"
 
 namespace arcslip::problems {
 

@@ -1,10 +1,10 @@
 #include "arcslip/problems/ridges/peak_ridge.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "arcslip/dense.hpp"
 #include "arcslip/elements/contact.hpp"
 #include "arcslip/problems/response/contact_problem.hpp"
 
@@ -195,7 +195,7 @@ bool solve_ridge(const FrictionSystem& system, double preload, double& w, double
   double before = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < 40; ++iteration) {
     const RidgePoint at = ridge_point(system, w, eta, preload);
-    const Eigen::Vector2d step = at.by_place.partialPivLu().solve(at.values);
+    const Eigen::Vector2d step = solution_of(at.by_place, at.values);
     const double size = std::abs(step(0)) + std::abs(step(1)) / eta;
     if (!std::isfinite(size)) return false;
     if (size < 1e-9 && !(size < 0.5 * before)) return true;  // at rounding

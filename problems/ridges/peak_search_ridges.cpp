@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/dense.hpp"
 #include "arcslip/problems/ridges/peak_ridge.hpp"
 #include "arcslip/problems/ridges/peak_search.hpp"
 
@@ -141,7 +141,7 @@ PeakNode PeakSearch::leaving(const PeakNode& inside, const PeakNode& outside) {
     const RidgePoint at = ridge_point(problem_.system(), node.w, edge, node.preload);
     Eigen::Matrix2d by_place;
     by_place << at.by_place.col(0), at.by_preload;
-    const Eigen::Vector2d step = by_place.partialPivLu().solve(at.values);
+    const Eigen::Vector2d step = solution_of(by_place, at.values);
     node.w -= step(0);
     node.preload -= step(1);
   }

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/dense.hpp"
 #include "arcslip/motion/swing.hpp"
-#include "arcslip/structure/dense.hpp"
 
 namespace arcslip {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "arcslip/structure/dense.hpp"
+#include "arcslip/dense.hpp"
 #include "assembly/ring_part.hpp"
 
 namespace arcslip {
@@ -55,7 +55,7 @@ void RingPart::add_single(Index wave, const SameModes& modes, RealModes& all) co
   constexpr double negligible = 1e-10;
   Matrix both(ports_, 2 * modes.load.size());
   both << modes.shapes.real(), modes.shapes.imag();
-  const auto [directions, sizes] = singular_axes(both);
+  const auto [directions, sizes, from] = singular_axes(both);
   const double part = 1 / std::sqrt(static_cast<double>(count()));
   for (Index k = 0; k < modes.load.size(); ++k) {
     const bool is_seen = k < sizes.size() && sizes(k) > negligible * sizes(0);

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "arcslip/dense.hpp"
 #include "arcslip/sectors/sector_reduction.hpp"
 #include "assembly/system_numbers.hpp"
 #include "sectors/turning_modes.hpp"
@@ -195,10 +195,9 @@ Loss proportional_loss(const SparseMatrix& damping, const SparseMatrix& mass, co
   const double k_size = k.norm();
   m /= m_size;
   k /= k_size;
-  Eigen::Matrix2d normal;
-  normal << 1, m.cwiseProduct(k).sum(), m.cwiseProduct(k).sum(), 1;
-  const Eigen::Vector2d factors =
-      normal.fullPivLu().solve(Eigen::Vector2d(m.cwiseProduct(c).sum(), k.cwiseProduct(c).sum()));
+  const double alike = m.cwiseProduct(k).sum();
+  const Vector products{{m.cwiseProduct(c).sum(), k.cwiseProduct(c).sum()}};
+  const Vector factors = shortest(Matrix{{1, alike}, {alike, 1}}, products);
   const SparseMatrix rest = c - factors(0) * m - factors(1) * k;
   if (rest.norm() > rounding * c.norm()) {
     throw SectorError("the damping matrix is not a sum alpha M + beta K, which the modes of the sector need");

@@ -1,6 +1,6 @@
 # What is installed: libraries, headers, program, what it reads, and the packages for CMake and pkg-config.
 
-install(TARGETS arcslip arcslip_continuation arcslip_mechanics arcslip_problems arcslip_files
+install(TARGETS arcslip arcslip_base arcslip_continuation arcslip_mechanics arcslip_problems arcslip_files
         EXPORT arcslipTargets)
 install(TARGETS arcslip_program)
 install(DIRECTORY include/arcslip ${PROJECT_BINARY_DIR}/include/arcslip DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
@@ -83,6 +83,6 @@ Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@ @libraries@
 endfunction()
 
 arcslip_pkg_config(arcslip-continuation "Continuation and bifurcation of problems that are smooth in pieces"
-  "eigen3 >= 3.4 fmt" "-larcslip_continuation -lklu -lamd -lcolamd -lbtf -lsuitesparseconfig -l${flags_of_dense}")
+  "eigen3 >= 3.4 fmt" "-larcslip_continuation -larcslip_base -lklu -lamd -lcolamd -lbtf -lsuitesparseconfig -l${flags_of_dense}")
 arcslip_pkg_config(arcslip "${PROJECT_DESCRIPTION}" "arcslip-continuation nlohmann_json sqlite3"
-  "-larcslip_files -larcslip_problems -larcslip_continuation -larcslip_mechanics -l${flags_of_sectors} -pthread")
+  "-larcslip_files -larcslip_problems -larcslip_continuation -larcslip_mechanics -larcslip_base -l${flags_of_sectors} -pthread")

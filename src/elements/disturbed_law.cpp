@@ -1,8 +1,9 @@
 #include "arcslip/elements/disturbed_law.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <numeric>
+
+#include "arcslip/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -37,7 +38,7 @@ Matrix interpolated_terms(const std::function<Vector(double)>& at, double theta,
           0.5 - 0.5 * std::cos(pi * (static_cast<double>(i) + 0.5) / static_cast<double>(points_in_step));
       for (Index m = 0; m < points_in_step; ++m) values(i, m) = m == 0 ? 1 : values(i, m - 1) * all.places(i);
     }
-    all.powers = values.inverse();
+    all.powers = inverse_of(values).value();
     return all;
   }();
   const Vector first = at(theta + width * points.places(0));

@@ -1,8 +1,10 @@
 #include "arcslip/interval/zeros_in_box.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "arcslip/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -118,10 +120,10 @@ class Search {
     for (Index i = 0; i < n_; ++i) {
       for (Index k = 0; k < n_; ++k) middle(i, k) = median(jacobian_[static_cast<std::size_t>(i * n_ + k)]);
     }
-    const Eigen::FullPivLU<Matrix> factors(middle);
-    if (!middle.allFinite() || !factors.isInvertible()) return false;
-    inverse_ = factors.inverse();
-    return inverse_.allFinite();
+    const std::optional<Matrix> inverse = middle.allFinite() ? inverse_of(middle) : std::nullopt;
+    if (!inverse || !inverse->allFinite()) return false;
+    inverse_ = *inverse;
+    return true;
   }
 
   bool apply(const Box& box, const Box& middle, Box& image) {

@@ -1,9 +1,9 @@
 #include "arcslip/sectors/annular_plate.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
 
+#include "arcslip/dense.hpp"
 #include "structure/shape_functions.hpp"
 
 namespace arcslip {
@@ -46,7 +46,7 @@ class SpinStress {
     };
     set(0, plate.inner_edge, plate.inner_radius);
     set(1, plate.outer_edge, plate.outer_radius);
-    constants_ = conditions.partialPivLu().solve(loads);
+    constants_ = solution_of(conditions, loads);
   }
 
   double radial(double r) const {

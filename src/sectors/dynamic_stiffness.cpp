@@ -1,7 +1,6 @@
 #include "arcslip/sectors/dynamic_stiffness.hpp"
 
-#include <Eigen/LU>
-
+#include "arcslip/dense.hpp"
 #include "arcslip/structure/sector.hpp"
 
 namespace arcslip {
@@ -22,17 +21,17 @@ ComplexMatrix DynamicStiffness::at(double eta) const {
 }
 
 ComplexVector DynamicStiffness::solve(double eta, const ComplexVector& force) const {
-  return at(eta).partialPivLu().solve(force);
+  return solution_of(at(eta), force);
 }
 
 ContactResponse DynamicStiffness::contact_response(double eta, Index contact_dof) const {
   const ComplexMatrix z = at(eta);
   const ComplexMatrix z_eta = Complex(0, two_pi) * damping - 2 * two_pi * two_pi * eta * mass;
   const ComplexVector e = ComplexVector::Unit(z.rows(), contact_dof);
-  const ComplexVector left = z.transpose().partialPivLu().solve(e);
-  const Eigen::PartialPivLU<ComplexMatrix> lu(z);
-  const ComplexVector by_contact = lu.solve(e);
-  const ComplexVector by_load = lu.solve(load);
+  const ComplexVector left = solution_of(ComplexMatrix(z.transpose()), e);
+  const auto solver = solver_of(z);
+  const ComplexVector by_contact = solver(e);
+  const ComplexVector by_load = solver(load);
   const auto along_left = [&](const ComplexVector& right) {
     return -(left.transpose() * z_eta * right).value();
   };

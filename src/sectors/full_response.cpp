@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "arcslip/dense.hpp"
 #include "sectors/turning_modes.hpp"
 
 namespace arcslip {
@@ -36,7 +36,7 @@ class FullResponse::Stiffness {
     ComplexMatrix z = denominators.asDiagonal();
     if (gyroscopic_ != 0) z += Complex(0, eta * speed) * modes.gyroscopic;
     if (by_speed2_ != 0) z += speed * speed * modes.stiffness_speed2;
-    coupled_.emplace(z);
+    coupled_ = solver_of(z);
   }
 
   NumberMatrix times(const NumberMatrix& motion) const {
@@ -54,7 +54,7 @@ class FullResponse::Stiffness {
 
   /// Of the modes, over (2 pi)^2.
   ComplexMatrix solved_by_modes(const ComplexMatrix& of_modes) const {
-    if (coupled_) return coupled_->solve(of_modes);
+    if (coupled_) return coupled_(of_modes);
     return inverses_.asDiagonal() * of_modes;
   }
 
@@ -92,7 +92,7 @@ class FullResponse::Stiffness {
   Real by_speed2_ = 0;
   Vector weights_;
   ComplexVector inverses_;
-  std::optional<Eigen::PartialPivLU<ComplexMatrix>> coupled_;
+  std::function<ComplexMatrix(const ComplexMatrix&)> coupled_;
 };
 
 FullResponse::FullResponse(const RitzSpace& space, const KrylovSpace* krylov,

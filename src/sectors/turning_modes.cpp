@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <stdexcept>
 
-#include "arcslip/structure/dense.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -55,10 +54,10 @@ SectorMotions motions_of(const SectorModes& modes, Index m, const ComplexMatrix&
 
 /// That of the modes under a force on each contact and the load.
 ComplexMatrix driven_modes(const SectorModes& modes, Index contacts,
-                           const Eigen::PartialPivLU<ComplexMatrix>& factors) {
+                           const std::function<ComplexMatrix(const ComplexMatrix&)>& solver) {
   ComplexMatrix drive(std::ssize(modes.frequencies), contacts + 1);
   drive << modes.shapes.topRows(contacts).adjoint(), modes.loads;
-  drive = factors.solve(drive).eval();
+  drive = solver(drive);
   if (!drive.allFinite()) throw std::domain_error("the dynamic stiffness of the modes is singular");
   return drive;
 }
@@ -79,7 +78,7 @@ ComplexVector modal_denominators(const SectorModes& modes, const Loss& loss, dou
 SectorMotions modal_motions(const SectorModes& modes, Index contacts, const Loss& loss, double eta,
                             double speed) {
   const ModalStiffness stiffness(modes, loss, eta, speed);
-  return motions_of(modes, contacts, driven_modes(modes, contacts, stiffness.z.partialPivLu()));
+  return motions_of(modes, contacts, driven_modes(modes, contacts, solver_of(stiffness.z)));
 }
 
 ModalSolves::ModalSolves(std::shared_ptr<const SectorModes> modes, Index contacts, const Loss& loss,
@@ -88,12 +87,12 @@ ModalSolves::ModalSolves(std::shared_ptr<const SectorModes> modes, Index contact
 
 SectorResponse ModalSolves::solved(double eta, double speed) const {
   const ModalStiffness stiffness(*modes_, loss_, eta, speed);
-  const Eigen::PartialPivLU<ComplexMatrix> factors(stiffness.z);
-  const ComplexMatrix motion = driven_modes(*modes_, contacts_, factors);
+  const auto solver = solver_of(stiffness.z);
+  const ComplexMatrix motion = driven_modes(*modes_, contacts_, solver);
   SectorResponse response;
   static_cast<SectorMotions&>(response) = motions_of(*modes_, contacts_, motion);
-  response.by_eta = motions_of(*modes_, contacts_, -factors.solve(stiffness.by_eta * motion));
-  response.by_speed = motions_of(*modes_, contacts_, -factors.solve(stiffness.by_speed * motion));
+  response.by_eta = motions_of(*modes_, contacts_, -solver(stiffness.by_eta * motion));
+  response.by_speed = motions_of(*modes_, contacts_, -solver(stiffness.by_speed * motion));
   response.damping = motion.adjoint() * stiffness.losses.asDiagonal() * motion;
   return response;
 }

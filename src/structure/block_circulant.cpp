@@ -1,6 +1,6 @@
 #include "arcslip/structure/block_circulant.hpp"
 
-#include <Eigen/LU>
+#include "arcslip/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -38,7 +38,7 @@ bool invert_block_circulant(ComplexMatrix& a, Index blocks) {
   ComplexMatrix waves = entries * turns.conjugate();
   for (Index m = 0; m < blocks; ++m) {
     Eigen::Map<ComplexMatrix> wave(waves.col(m).data(), size, size);
-    wave = ComplexMatrix(ComplexMatrix(wave).partialPivLu().inverse());
+    wave = solver_of(wave)(ComplexMatrix::Identity(size, size));
   }
   entries.noalias() = waves * (turns / static_cast<double>(blocks));
   for (Index j = 0; j < blocks; ++j) {

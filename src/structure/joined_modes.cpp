@@ -1,10 +1,10 @@
 // The modes of several structures on springs.
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "arcslip/dense.hpp"
 #include "arcslip/structure/contact_modes.hpp"
 
 namespace arcslip {
@@ -51,14 +51,14 @@ struct TurningWhole {
     ComplexMatrix stiffness = relative.adjoint() * springs.asDiagonal() * relative;
     stiffness.diagonal().array() += 1;
     const ComplexMatrix mass = inverses.cast<Complex>().asDiagonal();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<ComplexMatrix> found(mass, stiffness);
-    const double largest = found.eigenvalues().maxCoeff();
+    const Pencil<ComplexMatrix> found = pencil(mass, stiffness).value();
+    const double largest = found.values.maxCoeff();
     std::vector<JoinedMode> modes;
     for (Index k = relative.cols(); k-- > 0;) {  // the largest 1/lambda is the lowest frequency
-      const double inverse = found.eigenvalues()(k);
+      const double inverse = found.values(k);
       if (!(inverse > no_mass * largest)) break;
       const double eta = frequency_of(inverse, parts.front()->power);
-      const ComplexVector x = found.eigenvectors().col(k);
+      const ComplexVector x = found.vectors.col(k);
       modes.push_back({eta, damping(x, eta), relative * x, x});
     }
     return modes;
@@ -126,11 +126,11 @@ std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& str
   }
   ComplexMatrix stiffness = relative.adjoint() * springs.asDiagonal() * relative;
   stiffness.diagonal() += squares;
-  const Eigen::SelfAdjointEigenSolver<ComplexMatrix> found(stiffness);
+  const Pencil<ComplexMatrix> found = pencil(stiffness).value();
   std::vector<JoinedMode> modes;
   for (Index k = 0; k < count; ++k) {
-    const double frequency = std::sqrt(std::max(0.0, found.eigenvalues()(k)));
-    const auto motion = found.eigenvectors().col(k);
+    const double frequency = std::sqrt(std::max(0.0, found.values(k)));
+    const auto motion = found.vectors.col(k);
     double losses = 0;  // sum |x|^2 Im d
     Index row = 0;
     for (const ContactModes* structure : structures) {

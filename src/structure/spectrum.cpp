@@ -1,9 +1,10 @@
 #include "arcslip/structure/spectrum.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
+
+#include "arcslip/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -41,7 +42,7 @@ ComplexVector sorted(ComplexVector values) {
 
 }  // namespace
 
-ComplexVector spectrum(const Matrix& matrix) { return sorted(matrix.eigenvalues()); }
+ComplexVector spectrum(const Matrix& matrix) { return sorted(eigenvalues(matrix)); }
 
 ComplexVector spectrum(const ComplexMatrix& matrix) { return sorted(matrix.eigenvalues()); }
 
@@ -57,21 +58,12 @@ ComplexMatrix lasting_near(const ComplexMatrix& map, const ComplexMatrix& vector
   return lasting_by(map, vector);
 }
 
-Vector least_squares(const Matrix& a, const Vector& b) { return a.householderQr().solve(b); }
-
-Vector least_squares(const Matrix& a, const Vector& b, double rank) {
-  Eigen::CompleteOrthogonalDecomposition<Matrix> factors;
-  factors.setThreshold(rank);
-  return factors.compute(a).solve(b);
-}
-
 ComplexVector eigenvector(const ComplexMatrix& matrix, const Complex& value) {
   const Complex beside = value + 1e-10 * std::max(std::abs(value), matrix.norm() * 1e-3);
-  const Eigen::PartialPivLU<ComplexMatrix> solver(
-      matrix - beside * ComplexMatrix::Identity(matrix.rows(), matrix.rows()));
+  const auto solver = solver_of(matrix - beside * ComplexMatrix::Identity(matrix.rows(), matrix.rows()));
   ComplexVector vector(matrix.rows());  // in no invariant subspace
   for (Index i = 0; i < vector.size(); ++i) vector(i) = std::polar(1.0, static_cast<double>(i * i));
-  for (int round = 0; round < 3; ++round) vector = solver.solve(vector).normalized();
+  for (int round = 0; round < 3; ++round) vector = ComplexVector(solver(vector)).normalized();
   return vector;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "arcslip/structure/dense.hpp"
+#include "arcslip/dense.hpp"
 #include "arcslip/structure/spectrum.hpp"
 #include "arcslip/time/disturbed_wave.hpp"
 #include "time/own_velocity.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "arcslip/structure/dense.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip {
 namespace {

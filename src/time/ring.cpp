@@ -7,8 +7,8 @@
 
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/assembly/whole_ring.hpp"
+#include "arcslip/dense.hpp"
 #include "arcslip/motion/swing.hpp"
-#include "arcslip/structure/dense.hpp"
 #include "arcslip/time/ring_law.hpp"
 #include "arcslip/time/ring_waves.hpp"
 

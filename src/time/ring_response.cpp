@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "arcslip/structure/dense.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "arcslip/structure/dense.hpp"
+#include "arcslip/dense.hpp"
 #include "arcslip/time/ring_motion.hpp"
 
 namespace arcslip {

@@ -7,7 +7,7 @@
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/assembly/system.hpp"
-#include "arcslip/structure/dense.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip {
 namespace {

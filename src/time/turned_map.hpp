@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "arcslip/structure/dense.hpp"
+#include "arcslip/dense.hpp"
 #include "arcslip/time/turned_flow.hpp"
 #include "time/law_schedule.hpp"
 #include "time/own_velocity.hpp"

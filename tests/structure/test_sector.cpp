@@ -1,7 +1,7 @@
 #include <numbers>
 
+#include "arcslip/dense.hpp"
 #include "arcslip/sectors/dynamic_stiffness.hpp"
-#include "arcslip/structure/dense.hpp"
 #include "arcslip/structure/sector.hpp"
 #include "catch.hpp"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "arcslip/dense.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
 #include "arcslip/problems/tasks/verification.hpp"
-#include "arcslip/structure/dense.hpp"
 #include "arcslip/time/ring_stability.hpp"
 
 namespace arcslip::testing {

@@ -6,8 +6,8 @@
 #include <set>
 #include <vector>
 
+#include "arcslip/dense.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
-#include "arcslip/structure/dense.hpp"
 #include "arcslip/structure/spectrum.hpp"
 #include "catch.hpp"
 #include "draws.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/dense.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
-#include "arcslip/structure/dense.hpp"
 #include "arcslip/structure/spectrum.hpp"
 #include "case_runs.hpp"
 #include "catch.hpp"

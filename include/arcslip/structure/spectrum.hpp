@@ -19,12 +19,6 @@ ComplexMatrix deflated(const ComplexMatrix& matrix, const ComplexMatrix& subspac
 Matrix lasting_near(const Matrix& map, const Matrix& vector);
 ComplexMatrix lasting_near(const ComplexMatrix& map, const ComplexMatrix& vector);
 
-/// x of least |A x - b|, A of full rank with at least as many rows as columns.
-Vector least_squares(const Matrix& a, const Vector& b);
-
-/// The shortest such x where the rank may be lower, told by pivots below `rank` times the largest.
-Vector least_squares(const Matrix& a, const Vector& b, double rank);
-
 /// The vector of an eigenvalue, of length 1.
 ComplexVector eigenvector(const ComplexMatrix& matrix, const Complex& value);
 

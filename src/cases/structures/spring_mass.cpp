@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/dense.hpp"
 #include "cases/output_weights.hpp"
 #include "cases/structure_kind.hpp"
 #include "cases/system_section.hpp"
@@ -40,17 +40,17 @@ struct SpringMassChain : OutputSettings {
       k(i, i - 1) = k(i - 1, i) = -spring;
     }
     const Vector scale = Vector::Map(mass.data(), count).cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(scale.asDiagonal() * k * scale.asDiagonal());
+    const Pencil<Matrix> found = pencil(Matrix(scale.asDiagonal() * k * scale.asDiagonal())).value();
     Vector forces = Vector::Unit(count, count - 1);
     if (!load.empty()) forces = Vector::Map(load.data(), count);
     const Index rubs = contact > 0 ? contact - 1 : count - 1;
     std::vector<ContactMode> all;
     for (Index i = 0; i < count; ++i) {
-      const Vector shape = scale.cwiseProduct(solver.eigenvectors().col(i));
+      const Vector shape = scale.cwiseProduct(found.vectors.col(i));
       const bool is_rigid = i == 0 && stiffness.front() == 0;
       ContactVector seen = ContactVector::Constant(output != nullptr ? 2 : 1, shape(rubs));
       if (output != nullptr) seen(1) = output->dot(shape);
-      all.push_back({is_rigid ? 0 : std::sqrt(solver.eigenvalues()(i)), seen, force * shape.dot(forces)});
+      all.push_back({is_rigid ? 0 : std::sqrt(found.values(i)), seen, force * shape.dot(forces)});
     }
     return {output != nullptr ? 2 : 1, std::move(all), loss};
   }

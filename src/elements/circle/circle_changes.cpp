@@ -3,9 +3,9 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "arcslip/dense.hpp"
 #include "arcslip/elements/pressed/pressed_contact.hpp"
 #include "arcslip/motion/arc_integrals.hpp"
-#include "arcslip/structure/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -210,8 +210,8 @@ ContactNumber CircleColumns::number(double value, const Row& row) const {
 }
 
 Matrix start_of(const CircleChanges& changes) {
-  const Eigen::Matrix2d by = Eigen::Matrix2d::Identity() - changes.offset.rightCols<2>();
-  return by.fullPivLu().solve(changes.offset.leftCols(changes.offset.cols() - 2));
+  const Matrix by = Matrix::Identity(2, 2) - changes.offset.rightCols<2>();
+  return solution_of(by, Matrix(changes.offset.leftCols(changes.offset.cols() - 2)));
 }
 
 CircleChanges changes_of(const CircleMotion& motion, const CircleCourse& course, const CircleColumns& columns,

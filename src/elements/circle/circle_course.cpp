@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/dense.hpp"
 #include "elements/circle/circle_changes.hpp"
 #include "motion/bracketed_newton.hpp"
 #include "motion/isolated_zeros.hpp"
@@ -54,7 +55,7 @@ void CircleCourse::settle(Complex guess) {
     pass(offset);
     if (is_endless_) break;
     const Eigen::Matrix2d by_offset = Eigen::Matrix2d::Identity() - offset_by_offset(motion_, *this);
-    const Eigen::Vector2d step = by_offset.fullPivLu().solve(Eigen::Vector2d(moved_.real(), moved_.imag()));
+    const Eigen::Vector2d step = solution_of(by_offset, {moved_.real(), moved_.imag()});
     const double way = step.norm() / motion_.size();
     if (way <= settled || (way <= as_far_as_rounding_lets && way > 0.5 * last)) return;
     last = way;
@@ -230,8 +231,12 @@ FurtherSlips CircleCourse::further_slips() const {
 
 double CircleCourse::fraction(Phase phase) const {
   double sum = 0;
-  for (const Arc& arc : arcs_) sum += arc.phase == phase ? arc.width : 0;
-  return sum / two_pi;
+  double whole = 0;  // 2 pi but for rounding
+  for (const Arc& arc : arcs_) {
+    whole += arc.width;
+    sum += arc.phase == phase ? arc.width : 0;
+  }
+  return whole > 0 ? sum / whole : 0;
 }
 
 }  // namespace arcslip

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "arcslip/structure/dense.hpp"
+#include "arcslip/dense.hpp"
 
 namespace arcslip {
 namespace {

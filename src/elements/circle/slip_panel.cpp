@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/dense.hpp"
 #include "motion/isolated_zeros.hpp"
 
 namespace arcslip {
@@ -57,7 +58,7 @@ struct RadauScheme {
       for (Index k = 0; k <= panel_nodes; ++k)
         values(j, k) = std::cos(static_cast<double>(k) * std::acos(std::clamp(points(j), -1.0, 1.0)));
     }
-    coefficients = values.fullPivLu().inverse();
+    coefficients = inverse_of(values).value();
     differentiate(points);
     place = 0.5 * (place.array() + 1);
   }

@@ -79,7 +79,6 @@ class Surface {
   Vector row_lengths_;  // n
   Matrix square_;       // N x N: with two conditions below
   Vector step_;
-  Eigen::PartialPivLU<Matrix> factors_;
 };
 
 }  // namespace arcslip::continuation

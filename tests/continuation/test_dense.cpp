@@ -1,8 +1,8 @@
-#include "arcslip/structure/dense.hpp"
+#include "arcslip/dense.hpp"
 
 #include <random>
 
-#include "arcslip/structure/spectrum.hpp"
+#include "arcslip/continuation/linear/complex_sparse_factors.hpp"
 #include "catch.hpp"
 
 using namespace arcslip;
@@ -47,12 +47,44 @@ TEST_CASE("Linear equations are solved, and the sign of a determinant changes wi
   REQUIRE(largest(Vector(a * solution_of(a, b) - b)) < 1e-11);
   REQUIRE(largest(Matrix(a * solution_of(a, many) - many)) < 1e-11);
   REQUIRE(largest(ComplexVector(c * solution_of(c, right) - right)) < 1e-11);
+  const ComplexMatrix columns = random_complex(n, 2, 6);
+  const auto solver = solver_of(c);
+  REQUIRE(largest(ComplexMatrix(c * solver(columns) - columns)) < 1e-11);
+  REQUIRE(largest(ComplexMatrix(c * solver(right) - right)) < 1e-11);
+  const auto inverse = inverse_of(a);
+  REQUIRE(inverse);
+  REQUIRE(largest(Matrix(a * *inverse - Matrix::Identity(n, n))) < 1e-11);
+  REQUIRE(reciprocal_condition(a) > 1e-4);
+  const Pivots pivots = pivots_of(a);
+  REQUIRE(pivots.sign * pivots.sizes.prod() == Approx(determinant_of(a)));
+  REQUIRE(pivots.sign == orientation(a));
   REQUIRE(orientation(Matrix::Identity(n, n)) == 1);
   REQUIRE(orientation(-Matrix::Identity(n, n)) == (n % 2 == 0 ? 1 : -1));
   if (n == 1) return;
   Matrix swapped = a;
   swapped.row(0).swap(swapped.row(1));
   REQUIRE(orientation(swapped) == -orientation(a));
+  swapped.row(0) = swapped.row(1);
+  REQUIRE_FALSE(inverse_of(swapped));
+  REQUIRE_FALSE(reciprocal_condition(swapped) > 1e-14);
+  const Eigen::Matrix2d two = a.topLeftCorner<2, 2>();
+  REQUIRE(largest(Vector(two * solution_of(two, Eigen::Vector2d(3, -1)) - Eigen::Vector2d(3, -1))) < 1e-11);
+}
+
+TEST_CASE("Sparse complex equations are solved, and those of the adjoint matrix") {
+  const Index n = GENERATE(1, 5, 60);
+  const ComplexMatrix dense = random_complex(n, n, 1);
+  ComplexSparse matrix = dense.sparseView(1, 0.3);
+  for (Index i = 0; i < n; ++i) matrix.coeffRef(i, i) += 5;
+  const ComplexVector right = random_complex(n, 1, 2).col(0);
+  const ComplexSparseFactors factors(matrix);
+  REQUIRE(largest(ComplexVector(matrix * factors.solve(right) - right)) < 1e-11);
+  const ComplexSparse adjoint = matrix.adjoint();
+  REQUIRE(largest(ComplexVector(adjoint * factors.solve_adjoint(right) - right)) < 1e-11);
+  for (ComplexSparse::InnerIterator entry(matrix, 0); entry; ++entry) entry.valueRef() = 0;
+  const ComplexSparseFactors none(matrix);
+  REQUIRE_FALSE(none.solve(right).allFinite());
+  REQUIRE_FALSE(none.solve_adjoint(right).allFinite());
 }
 
 TEST_CASE("Equations of lower rank have their shortest least squares") {
@@ -67,6 +99,8 @@ TEST_CASE("Equations of lower rank have their shortest least squares") {
   REQUIRE(largest(Vector(shortest(a, b) - pseudo_inverse(a) * b)) < 1e-12);
   REQUIRE(largest(Matrix(shortest(a, many) - pseudo_inverse(a) * many)) < 1e-12);
   REQUIRE(largest(ComplexVector(shortest(c, right) - pseudo_inverse(c) * right)) < 1e-12);
+  const ComplexMatrix rights = random_complex(6, 2, 7);
+  REQUIRE(largest(ComplexMatrix(shortest(c, rights) - pseudo_inverse(c) * rights)) < 1e-12);
   REQUIRE(largest(Vector(least_squares_of(a, 1e-10)(b) - shortest(a, b))) < 1e-12);
   if (rank == 4) REQUIRE(largest(Vector(least_squares_of(a, {})(b) - shortest(a, b))) < 1e-12);
 }
@@ -81,6 +115,9 @@ TEST_CASE("A kernel has all that a matrix makes nothing of") {
   const Matrix integers{{1, 2, 3}, {2, 4, 6}};
   REQUIRE(kernel_of(integers).cols() == 2);
   REQUIRE(largest(Matrix(integers * kernel_of(integers))) < 1e-14);
+  const Matrix nearly{{1, 0}, {0, 1e-6}};
+  REQUIRE(kernel_of(nearly).cols() == 0);
+  REQUIRE(kernel_of(nearly, 1e-5).cols() == 1);
   REQUIRE(kernel_of(Matrix(0, 3)) == Matrix::Identity(3, 3));
   REQUIRE(kernel_of(Matrix(3, 0)).size() == 0);
 }
@@ -90,6 +127,20 @@ TEST_CASE("Columns are made orthonormal in their span, rows fewer with the same 
   const Matrix unit = orthonormal(columns);
   REQUIRE(largest(Matrix(unit.transpose() * unit - Matrix::Identity(3, 3))) < 1e-14);
   REQUIRE(largest(Matrix(unit * unit.transpose() * columns - columns)) < 1e-14);
+  Matrix q;
+  Matrix r;
+  orthogonalise(columns, q, r);
+  REQUIRE(largest(Matrix(q - unit)) < 1e-14);
+  REQUIRE(r.isUpperTriangular());
+  REQUIRE(largest(Matrix(q * r - columns)) < 1e-14);
+  const Matrix others = perpendicular(columns);
+  REQUIRE(others.cols() == 4);
+  REQUIRE(largest(Matrix(others.transpose() * others - Matrix::Identity(4, 4))) < 1e-14);
+  REQUIRE(largest(Matrix(others.transpose() * columns)) < 1e-14);
+  Matrix alike(7, 2);
+  alike << columns.col(0), columns.col(0) + 1e-6 * columns.col(1);
+  REQUIRE(perpendicular(alike).cols() == 5);
+  REQUIRE(perpendicular(alike, 1e-5).cols() == 0);
   const ComplexMatrix rows = random_complex(8, 2, 2) * random_complex(2, 5, 3);
   const ComplexMatrix few = fewest_rows(rows);
   REQUIRE(few.rows() == 2);
@@ -105,6 +156,7 @@ TEST_CASE("Axes of what a matrix makes of a ball are those of its square, the la
   const ComplexMatrix square =
       axes.directions * axes.sizes.cwiseAbs2().asDiagonal() * axes.directions.adjoint();
   REQUIRE(largest(ComplexMatrix(square - c * c.adjoint())) < 1e-13);
+  REQUIRE(largest(ComplexMatrix(c * axes.from - axes.directions * axes.sizes.asDiagonal())) < 1e-13);
   const Matrix scaled{{0, 2}, {-5, 0}, {0, 0}};
   const SingularAxes<Matrix> known = singular_axes(scaled);
   REQUIRE(known.sizes(0) == Approx(5));
@@ -150,14 +202,4 @@ TEST_CASE("Exponentials turn, grow and follow one another") {
   const ComplexMatrix whole = exponential(c);
   const ComplexMatrix half = exponential(ComplexMatrix(0.5 * c));
   REQUIRE(largest(ComplexMatrix(half * half - whole)) < 1e-12 * largest(whole));
-}
-
-TEST_CASE("What a map leaves as it is is found near a vector that it hardly changes") {
-  const Matrix turned = orthonormal(random_matrix(4, 4, 1));
-  const Matrix map = turned * Vector{{1.0, 0.5, -0.3, 0.1}}.asDiagonal() * turned.transpose();
-  const Matrix near = turned.col(0) + 1e-4 * turned.col(2);
-  const Matrix lasting = lasting_near(map, near);  // of no length in particular
-  REQUIRE(largest(Matrix(map * lasting - lasting)) < 1e-12);
-  const ComplexMatrix found = lasting_near(ComplexMatrix(map.cast<Complex>()), near.cast<Complex>());
-  REQUIRE(largest(ComplexMatrix(map.cast<Complex>() * found - found)) < 1e-12);
 }
