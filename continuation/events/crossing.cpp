@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -70,14 +71,21 @@ bool CrossingSearch::may_find(bool pairs) const {
   if (step_.there.orientation * step_.here.orientation <= 0) return true;
   if (!pairs) return false;
   std::array<double, 2 + most_past> places{step_.chord.norm(), 0};
-  std::array<double, 2 + most_past> values{std::exp(step_.there.log_determinant - step_.here.log_determinant),
-                                           1};
+  std::array<double, 2 + most_past> logs{step_.there.log_determinant - step_.here.log_determinant, 0};
+  std::array<double, 2 + most_past> values{std::exp(logs[0]), 1};
   std::size_t count = 2;
+  bool has_one_sign = true;
   for (const PastPoint& past : step_.past) {
+    const double sign = past.sign * step_.here.orientation;
+    has_one_sign = has_one_sign && sign > 0;
     places[count] = -past.behind;
-    values[count++] = past.sign * step_.here.orientation * std::exp(past.log - step_.here.log_determinant);
+    logs[count] = past.log - step_.here.log_determinant;
+    values[count] = sign * std::exp(logs[count]);
+    ++count;
   }
-  return may_vanish_twice({places.data(), count}, {values.data(), count});
+  const std::span<const double> at(places.data(), count);
+  return may_vanish_twice(at, {values.data(), count}) &&
+         !(has_one_sign && !logarithm_may_fall(at, {logs.data(), count}));
 }
 
 bool CrossingSearch::search(bool may_leap) {

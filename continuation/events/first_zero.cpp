@@ -16,6 +16,7 @@ constexpr int most_places = 40;      // of one search
 constexpr int deep = 7;              // times that the way is halved: a function that there still jumps has a
                                      // corner or a jump and else no feature
 constexpr double safety = 2.5;       // on what a polynomial through earlier values leaves a function to do
+constexpr double bent = 0.05;        // of a logarithm: less than two zeros in a step leave of it
 constexpr double rounded = 3e-14;    // of the larger end value: nothing, where two zeros are one
 constexpr double negligible = 1e-7;  // the same between places that are not told apart
 
@@ -220,14 +221,15 @@ FirstZero first_zero(const Node& a, const Node& b, const std::function<std::opti
   return Subdivision(a, b, at, least).run(a, b);
 }
 
-bool may_vanish_twice(std::span<const double> places, std::span<const double> values) {
+namespace {
+
+/// By how much a polynomial through the values leaves a straight line within the step, at most.
+double leeway(std::span<const double> places, std::span<const double> values) {
   std::array<double, 5> differences{};
   const std::size_t count = std::min(places.size(), differences.size());
-  if (count < 4) return true;
   std::copy_n(values.begin(), count, differences.begin());
-  const double least = std::min(std::abs(values[0]), std::abs(values[1]));
   const double step = places[0] - places[1];
-  double leeway = 0;  // of the function beside the straight line
+  double leeway = 0;
   double reach = 0.25 * step * step;
   for (std::size_t order = 1; order < count; ++order) {
     for (std::size_t i = 0; i + order < count; ++i)
@@ -236,7 +238,19 @@ bool may_vanish_twice(std::span<const double> places, std::span<const double> va
     leeway += std::abs(differences[0]) * reach;
     reach *= places[0] - places[order];
   }
-  return !(safety * leeway < least);
+  return leeway;
+}
+
+}  // namespace
+
+bool may_vanish_twice(std::span<const double> places, std::span<const double> values) {
+  if (places.size() < 4) return true;
+  const double least = std::min(std::abs(values[0]), std::abs(values[1]));
+  return !(safety * leeway(places, values) < least);
+}
+
+bool logarithm_may_fall(std::span<const double> places, std::span<const double> logarithms) {
+  return places.size() < 4 || !(leeway(places, logarithms) < bent);
 }
 
 }  // namespace arcslip::continuation

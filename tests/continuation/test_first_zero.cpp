@@ -1,6 +1,8 @@
 // First zeros of functions: how many looks they take, and that pairs of zeros are told however near they lie.
 
+#include <array>
 #include <cmath>
+#include <random>
 
 #include "arcslip/continuation/events/first_zero.hpp"
 #include "catch.hpp"
@@ -86,6 +88,39 @@ TEST_CASE("Two zeros that lie near together are found beside a factor that fades
       }
     }
   }
+}
+
+TEST_CASE("Values before a step tell whether a function may vanish twice in it, or its logarithm fall") {
+  std::mt19937 numbers(1);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(numbers);
+  };
+  int beyond = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::array<double, 5> places{1, 0};  // the end of the step, its beginning, and before
+    for (std::size_t k = 2; k < places.size(); ++k) places[k] = places[k - 1] - uniform(0.5, 1.5);
+    const double a = uniform(0.001, 0.999);
+    const double b = i % 2 == 0 ? uniform(0.001, 0.999) : a;
+    const double rate = uniform(-20, 20);
+    std::array<double, 5> values{};
+    std::array<double, 5> logs{};
+    std::array<double, 5> fading{};
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      values[k] = (places[k] - a) * (places[k] - b);
+      logs[k] = std::log(values[k]) + rate * places[k];
+      fading[k] = std::exp(rate * places[k]);
+    }
+    const bool fades = std::abs(rate) > 5;
+    INFO(a << " " << b << " " << places[2]);
+    CHECK(may_vanish_twice(places, values));
+    CHECK(logarithm_may_fall(places, logs));
+    for (std::size_t k = 0; k < places.size(); ++k) logs[k] = rate * places[k];
+    CHECK_FALSE(logarithm_may_fall(places, logs));
+    if (fades) beyond += may_vanish_twice(places, fading) ? 1 : 0;
+  }
+  CHECK(beyond > 10000);  // which the values alone take for a pair
+  CHECK(may_vanish_twice(std::array{1.0, 0.0, -1.0}, std::array{1.0, 1.0, 1.0}));  // too few to tell
+  CHECK(logarithm_may_fall(std::array{1.0, 0.0, -1.0}, std::array{0.0, 0.0, 0.0}));
 }
 
 }  // namespace

@@ -58,4 +58,8 @@ FirstZero first_zero(const Node& a, const Node& b, const std::function<std::opti
 /// before it may.
 bool may_vanish_twice(std::span<const double> places, std::span<const double> values);
 
+/// The same by the logarithms of values of one sign: of a function that grows or fades by orders of
+/// magnitude.
+bool logarithm_may_fall(std::span<const double> places, std::span<const double> logarithms);
+
 }  // namespace arcslip::continuation
