@@ -109,10 +109,10 @@ std::optional<RestingForce> Jenkins::resting_force(std::span<const int> orders, 
 }
 
 std::vector<MotionNumber> Jenkins::read(std::span<const int> orders, const HarmonicVector& x, double load,
-                                        bool slips, bool /*derivatives*/) const {
+                                        bool slips, bool derivatives) const {
   const double limit = stiffness_ * threshold(load);
-  const ContactReadings found =
-      pressed_readings({1, stiffness_, 0, limit}, orders, x, ComplexVector::Zero(x.size()), course(slips));
+  const ContactReadings found = pressed_readings({1, stiffness_, 0, limit}, orders, x,
+                                                 ComplexVector::Zero(x.size()), course(slips), derivatives);
   const auto told = [&](const ContactNumber& number) {
     return MotionNumber{number.value, number.by_motion.head(x.size()),
                         limit * number.by[PressedForce::normal_force], 0};

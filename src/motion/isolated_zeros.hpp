@@ -26,6 +26,16 @@ inline bool keeps_from_zero(double value, double slope, double bound, double wid
   return std::abs(value) > (std::abs(slope) + 0.5 * bound * width) * width;
 }
 
+/// Where the parabola through both ends of a cell and its middle, with the slope there, is zero, about; the
+/// middle if that is outside.
+inline double parabola_zero(const AngleCell& cell, double value, double slope) {
+  const double middle = 0.5 * (cell.low + cell.high);
+  const double width = 0.5 * (cell.high - cell.low);
+  const double bend = 0.5 * (cell.at_low + cell.at_high - 2 * value) / (width * width);
+  const double zero = middle - value / (slope - bend * value / slope);
+  return zero > cell.low && zero < cell.high ? zero : middle;
+}
+
 /// Calls `take` with each angle of [low, high) of a cell <= 1 wide, in ascending order, at which the sign
 /// changes, but pairs of them closer than 1e-8; a zero at the lower end of a cell counts as one. `at` gives
 /// value and derivative at an angle, `bound` > 0 that of the second derivative.
@@ -36,18 +46,20 @@ void isolate_zeros(const Function& at, double bound, const AngleCell& whole, con
   std::size_t count = 0;
   open[count++] = whole;
   while (count > 0) {
-    const AngleCell cell = open[--count];
+    AngleCell cell = open[--count];
     const double middle = 0.5 * (cell.low + cell.high);
     const double width = 0.5 * (cell.high - cell.low);
     const auto [value, slope] = at(middle);
     const bool passes = cell.at_low * cell.at_high <= 0;  // what bounds may tell otherwise by rounding
     if (!passes && keeps_from_zero(value, slope, bound, width)) continue;
     if (std::abs(slope) > bound * width || width < narrow) {  // one zero at most
-      const double low = std::isnan(cell.at_low) ? at(cell.low).first : cell.at_low;
-      if (low == 0) {
+      if (std::isnan(cell.at_low)) cell.at_low = at(cell.low).first;
+      if (std::isnan(cell.at_high)) cell.at_high = at(cell.high).first;
+      if (cell.at_low == 0) {
         take(cell.low);
-      } else if (low * (std::isnan(cell.at_high) ? at(cell.high).first : cell.at_high) < 0) {
-        take(bracketed_newton(at, middle, cell.low, cell.high, low < 0));
+      } else if (cell.at_low * cell.at_high < 0) {
+        const double guess = parabola_zero(cell, value, slope);
+        take(bracketed_newton(at, guess, cell.low, cell.high, cell.at_low < 0));
       }
       continue;
     }

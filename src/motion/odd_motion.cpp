@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "motion/isolated_zeros.hpp"
+#include "motion/lattice.hpp"
 
 namespace arcslip {
 namespace {
@@ -27,62 +27,25 @@ void each_harmonic(std::span<const int> orders, const HarmonicVector& coefficien
   }
 }
 
-/// The angles of a half period at which derivatives are known without a sine: i pi/lattice_size.
-constexpr std::size_t lattice_size = 32;
-using LatticeValues = std::array<double, lattice_size>;
+/// Of a half period.
+constexpr std::size_t half_lattice = lattice_size / 2;
 
-/// e^{jh theta} at these angles.
-struct LatticeTurns {
-  LatticeValues cosine;
-  LatticeValues sine;
-};
-
-/// Of an odd h: they are the same of h + 2 lattice_size.
-const LatticeTurns& lattice_turns(int h) {
-  static const auto all = [] {
-    std::array<LatticeTurns, lattice_size> turns;
-    for (std::size_t k = 0; k < lattice_size; ++k) {
-      for (std::size_t i = 0; i < lattice_size; ++i) {
-        const auto place = static_cast<double>((2 * k + 1) * i % (2 * lattice_size));
-        turns[k].cosine[i] = std::cos(place * pi / lattice_size);
-        turns[k].sine[i] = std::sin(place * pi / lattice_size);
-      }
-    }
-    return turns;
-  }();
-  return all[static_cast<std::size_t>(h) / 2 % lattice_size];
-}
-
-/// Derivatives of a motion there, the first to the fourth.
-struct Lattice {
-  LatticeValues first{};
-  LatticeValues second{};
-  LatticeValues third{};
-  LatticeValues fourth{};
-
-  Lattice(std::span<const int> orders, const HarmonicVector& coefficients) {
+/// The rate of a motion there.
+struct RateLattice : Lattice<half_lattice> {
+  RateLattice(std::span<const int> orders, const HarmonicVector& coefficients) {
     for (std::size_t a = 0; a < orders.size(); ++a) {
-      const LatticeTurns& turns = lattice_turns(orders[a]);
-      const double h = orders[a];
-      const Complex speed = Complex(0, h) * coefficients(static_cast<Index>(a));
-      for (std::size_t i = 0; i < lattice_size; ++i) {
-        const double real = speed.real() * turns.cosine[i] - speed.imag() * turns.sine[i];
-        const double imaginary = speed.real() * turns.sine[i] + speed.imag() * turns.cosine[i];
-        first[i] += real;
-        second[i] -= h * imaginary;
-        third[i] -= h * h * real;
-        fourth[i] += h * h * h * imaginary;
-      }
+      const Complex rate = Complex(0, orders[a]) * coefficients(static_cast<Index>(a));
+      add(orders[a], rate.real(), rate.imag());
     }
   }
 
-  /// The first derivative at the i-th of a whole period's angles.
-  double slope(std::size_t i) const { return i < lattice_size ? first[i] : -first[i - lattice_size]; }
+  /// At the i-th of a whole period's angles.
+  double rate(std::size_t i) const { return i < half_lattice ? value[i] : -value[i - half_lattice]; }
 
   /// Where the motion is steepest.
   std::size_t steepest() const {
     const auto less = [](double a, double b) { return std::abs(a) < std::abs(b); };
-    return static_cast<std::size_t>(std::max_element(first.begin(), first.end(), less) - first.begin());
+    return static_cast<std::size_t>(std::max_element(value.begin(), value.end(), less) - value.begin());
   }
 };
 
@@ -152,21 +115,18 @@ Angles OddMotion::turning_points() const {
     for (int i = 0; i < orders_.front(); ++i) found.push(first + (first < 0 ? i + 1 : i) * apart);
     return found;
   }
-  const Lattice lattice(orders_, coefficients_);
+  const RateLattice lattice(orders_, coefficients_);
   const auto slope = [&](double theta) {
     const Slopes here = slopes(theta);
     return std::pair(here.first, here.second);
   };
-  constexpr double apart = pi / lattice_size;
   const std::size_t begin = lattice.steepest();  // so that no turning point is counted at both ends
-  for (std::size_t i = begin; i < begin + lattice_size; i += 2) {
-    const std::size_t middle = (i + 1) % lattice_size;
-    const double third =
-        std::abs(lattice.third[middle]) +
-        (std::abs(lattice.fourth[middle]) + 0.5 * fifth * apart) * apart;  // all over the cell
-    if (keeps_from_zero(lattice.first[middle], lattice.second[middle], third, apart)) continue;
-    const AngleCell cell{static_cast<double>(i) * apart, static_cast<double>(i + 2) * apart, lattice.slope(i),
-                         lattice.slope(i + 2)};
+  for (std::size_t i = begin; i < begin + half_lattice; i += 2) {
+    const std::size_t middle = (i + 1) % half_lattice;
+    const double third = lattice.bound_round(middle, fifth);
+    if (lattice.keeps_from_zero(middle, third)) continue;
+    const AngleCell cell{static_cast<double>(i) * lattice_width, static_cast<double>(i + 2) * lattice_width,
+                         lattice.rate(i), lattice.rate(i + 2)};
     isolate_zeros(slope, third, cell, [&](double theta) { found.push(theta); });
   }
   return found;

@@ -1,10 +1,11 @@
 #include "arcslip/motion/periodic_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "motion/isolated_zeros.hpp"
+#include "motion/lattice.hpp"
 
 namespace arcslip {
 
@@ -59,16 +60,30 @@ PeriodicMotion PeriodicMotion::derivative() const {
 }
 
 std::vector<double> PeriodicMotion::zeros() const {
-  double second = 0;  // bound of |d2x/dtheta2|
-  for (Index h = 1; h < coefficients_.size(); ++h)
-    second += std::pow(static_cast<double>(h), 2) * std::abs(coefficients_(h));
+  double second = 0;  // bounds of derivatives wherever
+  double fourth = 0;
+  Lattice<lattice_size> lattice;
+  lattice.value.fill(coefficients_(0).real());
+  for (Index h = 1; h < coefficients_.size(); ++h) {
+    if (coefficients_(h) == 0.0) continue;
+    const auto square = static_cast<double>(h * h);
+    second += square * std::abs(coefficients_(h));
+    fourth += square * square * std::abs(coefficients_(h));
+    lattice.add(static_cast<int>(h), coefficients_(h).real(), coefficients_(h).imag());
+  }
   std::vector<double> found;
-  if (!(second > 0)) return found;
+  if (!(fourth > 0)) return found;
   const auto both = [&](double theta) {
     const Local here = at(theta);
     return std::pair(here.value, here.first);
   };
-  isolate_zeros(both, second, 0, two_pi, 8, [&](double theta) { found.push_back(theta); });
+  for (std::size_t i = 0; i < lattice_size; i += 2) {
+    const double bound = std::min(second, lattice.bound_round(i + 1, fourth));
+    if (lattice.keeps_from_zero(i + 1, bound)) continue;
+    const AngleCell cell{static_cast<double>(i) * lattice_width, static_cast<double>(i + 2) * lattice_width,
+                         lattice.value[i], lattice.value[(i + 2) % lattice_size]};
+    isolate_zeros(both, bound, cell, [&](double theta) { found.push_back(theta); });
+  }
   return found;
 }
 

@@ -28,7 +28,13 @@ Swing Swing::at(const PeriodicMotion& motion, std::span<const double> angles) {
 Farthest farthest_of(std::span<const int> orders, const HarmonicVector& x) {
   constexpr double rounding = 1e-13;
   const PeriodicMotion motion(orders, x, highest_order(orders));
-  std::vector<double> places = motion.derivative().zeros();
+  std::vector<double> places;
+  if (all_odd(orders)) {  // the other half period has the same
+    const Angles turns = OddMotion(orders, x).turning_points();
+    places.assign(turns.all().begin(), turns.all().end());
+  } else {
+    places = motion.derivative().zeros();
+  }
   if (places.empty()) places.push_back(0);
   Farthest peak{0, HarmonicVector::Zero(x.size())};
   for (const double angle : places) peak.value = std::max(peak.value, std::abs(motion.value(angle)));

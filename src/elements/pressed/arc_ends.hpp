@@ -25,7 +25,6 @@ class ArcEnds {
   /// n and dn/dtheta, and dr/dtheta.
   const PeriodicMotion& press() const { return press_; }
   const PeriodicMotion& press_rate() const { return press_rate_; }
-  const PeriodicMotion& slide_rate() const { return slide_rate_; }
 
   /// A number that nothing changes.
   ContactNumber zero(double value) const;

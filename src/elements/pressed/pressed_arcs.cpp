@@ -114,13 +114,19 @@ void PressedArcs::stay_against_drift(bool forwards) {
 
 /// At all zeros, or at 0 where nothing moves.
 void PressedArcs::cut() {
-  std::vector<double> angles = press_.zeros();
-  for (const PeriodicMotion& bound : {low_, high_}) {
-    const std::vector<double> turns = bound.derivative().zeros();
-    angles.insert(angles.end(), turns.begin(), turns.end());
+  std::vector<double> angles;
+  if (press_.coefficients().tail(press_.highest()).isZero(0)) {  // both bounds turn where the sliding does
+    turns_ = sliding_.derivative().zeros();
+    angles = *turns_;
+  } else {
+    angles = press_.zeros();
+    for (const PeriodicMotion* bound : {&low_, &high_}) {
+      const std::vector<double> turns = bound->derivative().zeros();
+      angles.insert(angles.end(), turns.begin(), turns.end());
+    }
+    std::sort(angles.begin(), angles.end());
+    angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
   }
-  std::sort(angles.begin(), angles.end());
-  angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
   if (angles.empty()) angles.push_back(0);
   for (const double angle : angles) nodes_.push_back({angle, low_.value(angle), high_.value(angle)});
   for (std::size_t i = 0; i < nodes_.size(); ++i) {

@@ -194,9 +194,10 @@ std::optional<RestingForce> PressedElement::resting_force(std::span<const int> o
 }
 
 std::vector<MotionNumber> PressedElement::read(std::span<const int> orders, const HarmonicVector& x,
-                                               double load, bool beyond, bool /*derivatives*/) const {
+                                               double load, bool beyond, bool derivatives) const {
   const Index n = std::ssize(orders);
-  return told(settings_, pressed_readings(settings(load), orders, x.head(n), x.tail(n), course(beyond)),
+  return told(settings_,
+              pressed_readings(settings(load), orders, x.head(n), x.tail(n), course(beyond), derivatives),
               orders, x, load, 1);
 }
 

@@ -23,11 +23,11 @@ class PressedReader {
         course_(settings, sliding, closing, course),
         ends_(settings, orders, sliding, closing, course == PressedArcs::Course::drifts) {}
 
-  ContactReadings read() const {
-    ContactReadings all{greatest(), ends_.zero(fraction_of(course_.arcs(), Phase::slip)),
+  ContactReadings read(bool derivatives) const {
+    ContactReadings all{greatest(derivatives), ends_.zero(fraction_of(course_.arcs(), Phase::slip)),
                         ends_.zero(fraction_of(course_.arcs(), Phase::apart))};
     const std::vector<Arc>& arcs = course_.arcs();
-    if (arcs.size() == 1) return all;
+    if (arcs.size() == 1 || !derivatives) return all;
     for (const Arc& arc : arcs) {
       if (arc.phase == Phase::stick) continue;
       ContactNumber& fraction = arc.phase == Phase::slip ? all.slip_fraction : all.apart_fraction;
@@ -74,7 +74,7 @@ class PressedReader {
 
   /// Both ends of slip, extremes within arcs, and where nothing moves the begin of stick.
   std::vector<Place> places() const {
-    const std::vector<double> turns = ends_.slide_rate().zeros();
+    const std::vector<double> turns = course_.turns();
     const std::vector<double> presses = ends_.press_rate().zeros();
     std::vector<Place> all;
     for (const Arc& arc : course_.arcs()) {
@@ -90,13 +90,13 @@ class PressedReader {
     return all;
   }
 
-  ContactNumber greatest() const {
+  ContactNumber greatest(bool derivatives) const {
     constexpr double rounding = 1e-11;
     const std::vector<Place> all = places();
     double most = 0;
     for (const Place& place : all) most = std::max(most, std::abs(place.force));
     ContactNumber number = ends_.zero(most);
-    if (!(most > 0)) return number;
+    if (!(most > 0) || !derivatives) return number;
     const auto is_greatest = [=](const Place& place) {
       return std::abs(place.force) >= (1 - rounding) * most;
     };
@@ -130,10 +130,10 @@ class PressedReader {
 
 ContactReadings pressed_readings(const PressedSettings& settings, std::span<const int> orders,
                                  const ComplexVector& sliding, const ComplexVector& closing,
-                                 PressedArcs::Course course) {
+                                 PressedArcs::Course course, bool derivatives) {
   const PeriodicMotion slides = sliding_motion(orders, sliding, course);
   const PeriodicMotion closes(orders, closing, highest_order(orders));
-  return PressedReader(settings, orders, slides, closes, course).read();
+  return PressedReader(settings, orders, slides, closes, course).read(derivatives);
 }
 
 }  // namespace arcslip

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -74,6 +75,9 @@ class PressedArcs {
 
   /// n, that is N where it is not negative.
   const PeriodicMotion& press() const { return press_; }
+
+  /// Where the sliding displacement turns back.
+  std::vector<double> turns() const { return turns_ ? *turns_ : sliding_.derivative().zeros(); }
 
   /// Whether it sticks all the time.
   bool is_stuck() const { return arcs_.size() == 1 && arcs_.front().phase == Phase::stick; }
@@ -136,6 +140,7 @@ class PressedArcs {
   PeriodicMotion press_;
   PeriodicMotion low_;
   PeriodicMotion high_;
+  std::optional<std::vector<double>> turns_;  // where they are known
   std::vector<Node> nodes_;
   std::vector<Cell> cells_;
   std::vector<Arc> arcs_;

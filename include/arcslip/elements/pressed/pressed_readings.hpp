@@ -9,9 +9,10 @@
 
 namespace arcslip {
 
-/// Under motions and in a course as `pressed_force` has them, derivatives by r_h, then g_h.
+/// Under motions and in a course as `pressed_force` has them; derivatives by r_h, then g_h, or zeros where
+/// none are asked for.
 ContactReadings pressed_readings(const PressedSettings& settings, std::span<const int> orders,
                                  const ComplexVector& sliding, const ComplexVector& closing,
-                                 PressedArcs::Course course);
+                                 PressedArcs::Course course, bool derivatives);
 
 }  // namespace arcslip
