@@ -46,9 +46,9 @@ class Polyline {
 
  private:
   /// Finds the extent of what is drawn: that of rounding is none, nor has what is rounding of larger values a
-  /// logarithm.
+  /// logarithm. What remains of larger numbers, as where a force is at its limit, may vary by many roundings.
   void leave_rounding_out() {
-    constexpr double relative = 1e-12;
+    constexpr double relative = 1e-9;  // of ten digits the last one
     const Index count = all_.front().size() / 2;
     Coordinates low = all_.front();
     Coordinates high = low;
@@ -114,7 +114,7 @@ class Polyline {
         }
       } else if (bends) {
         take(branch_->points[piece], all_[piece]);
-        split(whole, std::move(middle), here, 0);
+        split(whole, std::move(middle), here, nullptr, 0);
         return piece + 1;
       }
     }
@@ -164,18 +164,49 @@ class Polyline {
     return true;
   }
 
-  void fill(const Segment& segment, int halvings) {
+  /// A point as far beyond one end of a segment as the other one lies before it.
+  struct Beyond {
+    const Coordinates& at;
+    bool is_behind;
+  };
+
+  void fill(const Segment& segment, const Beyond& beyond, int halvings) {
     if (halvings >= most_halvings) return;
     BranchPoint point = point_between(segment.piece, 0.5 * (segment.from + segment.to));
     const Coordinates here = coordinates(point);
-    if (!is_straight(segment, here)) split(segment, std::move(point), here, halvings);
+    if (!is_straight(segment, here)) split(segment, std::move(point), here, &beyond, halvings);
   }
 
-  void split(const Segment& segment, BranchPoint middle, const Coordinates& here, int halvings) {
+  void split(const Segment& segment, BranchPoint middle, const Coordinates& here, const Beyond* beyond,
+             int halvings) {
     const double x = 0.5 * (segment.from + segment.to);
-    fill({segment.piece, segment.from, x, segment.begin, here, segment.size}, halvings + 1);
+    const Segment first{segment.piece, segment.from, x, segment.begin, here, segment.size};
+    const Segment second{segment.piece, x, segment.to, here, segment.end, segment.size};
+    const bool is_known = beyond != nullptr && are_told_straight(first, second, *beyond);
+    if (!is_known) fill(first, {segment.end, true}, halvings + 1);
     take(std::move(middle), here);
-    fill({segment.piece, x, segment.to, here, segment.end, segment.size}, halvings + 1);
+    if (!is_known) fill(second, {segment.begin, false}, halvings + 1);
+  }
+
+  /// Whether the parabola through both halves' ends lies on the lines between these, and the cubic through
+  /// the point beyond as well next to it that no function like these, or like sqrt(s) or |s|, is elsewhere.
+  bool are_told_straight(const Segment& first, const Segment& second, const Beyond& beyond) {
+    constexpr double unlike = 8;  // times what the cubic has beside the parabola
+    const Coordinates& middle = first.end;
+    const Coordinates& near = beyond.is_behind ? second.end : first.begin;
+    const Coordinates& far = beyond.is_behind ? first.begin : second.end;
+    const Coordinates bend = 2 * (far - 2 * middle + near);  // divided differences: far = 0, near = 1
+    const Coordinates twist = 0.5 * (middle / 0.75 - 2 * near + beyond.at / 1.5 - bend);
+    const auto is_told = [&](const Segment& half) {
+      return for_all_axes(bend / 16, half, [&](Index x) {
+        along_ = unlike * 3 / 64 * twist * per_size_;
+        along_ = (along_(x) * end_ - along_ * end_(x)).abs();
+        along_(0) = along_(way_.size() / 2) = 0;
+        return ((off_.abs() + along_).square() > straight * straight * (end_(x) * end_(x) + end_.square()))
+            .any();
+      });
+    };
+    return is_told(first) && is_told(second);
   }
 
   /// Whether the middle lies on the line from end to end, for each observable over the parameter and for both

@@ -1,8 +1,8 @@
 // Cost of friction in many harmonics, as ratios measured in one run: that of a point of a branch, with all
 // corrector iterations and events that belong to it, over that of as many marches of the loop and transforms
-// with their derivatives alone, goal: at most 2; the time of a point's Floquet exponents; and that of the
-// periodic motion of all 30 nodes in time, found by Newton's method or by marching 1000 periods, over that of
-// such a point.
+// with their derivatives alone, goal: at most 2; that of drawing a branch over that of tracing it; the time
+// of a point's Floquet exponents; and that of the periodic motion of all 30 nodes in time, found by Newton's
+// method or by marching 1000 periods, over that of such a point.
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "arcslip/assembly/system.hpp"
+#include "arcslip/continuation/path/polyline.hpp"
 #include "arcslip/elements/jenkins.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
 #include "arcslip/time/ring_response.hpp"
@@ -80,9 +81,26 @@ void report(int highest, int contacts) {
   }
   const double marched = seconds_since(again);
   const auto points = static_cast<double>(branch.points.size());
+
+  Vector observed;
+  std::vector<double> values;
+  long looks = 0;
+  const Clock::time_point drawing = Clock::now();
+  const auto drawn = continuation::polyline(
+      branch, continuation::index_of(problem.parameter_names(), "eta"),
+      [&](const continuation::BranchPoint& point) -> const std::vector<double>& {
+        ++looks;
+        problem.observe_quickly(point.unknowns, point.parameters, point.regime, observed);
+        values.assign(observed.begin(), observed.end());
+        return values;
+      },
+      &problem);
+  const double drew = seconds_since(drawing);
   fmt::print(
-      "H = {:2}, {} contacts: {:4} points, {:7.1f} us a point, {:.2f} of marches and transforms alone{}\n",
-      highest, contacts, branch.points.size(), 1e6 * traced / points, traced / marched,
+      "H = {:2}, {} contacts: {:4} points, {:7.1f} us a point, {:.2f} of marches and transforms alone; "
+      "drawn by {:5} points in {:.2f} looks each, {:.2f} of tracing{}\n",
+      highest, contacts, branch.points.size(), 1e6 * traced / points, traced / marched, drawn.points.size(),
+      static_cast<double>(looks) / static_cast<double>(drawn.points.size()), drew / traced,
       branch.complete() && std::isfinite(sum) ? "" : " (incomplete)");
 }
 
