@@ -1,8 +1,8 @@
-#include <Eigen/SparseLU>
 #include <array>
 #include <numbers>
 
 #include "arcslip/cases/study_case.hpp"
+#include "arcslip/continuation/linear/complex_sparse_factors.hpp"
 #include "arcslip/elements/contact.hpp"
 #include "arcslip/problems/response/forced_response.hpp"
 #include "arcslip/results/results.hpp"
@@ -184,8 +184,7 @@ TEST_CASE("A whole ring of 300 sectors without reduction moves at every node as 
   }
   Eigen::SparseMatrix<Complex> stiffness(size, size);
   stiffness.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SparseLU<Eigen::SparseMatrix<Complex>> lu(stiffness);
-  const ComplexVector whole = lu.solve(force);
+  const ComplexVector whole = continuation::ComplexSparseFactors(stiffness).solve(force);
 
   // One sector: the disk's nodes under the load and the force k phi r of the contact.
   FiniteSector disk = rubbed.disk;

@@ -6,6 +6,7 @@
 
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/cases/study_case.hpp"
+#include "arcslip/dense.hpp"
 #include "arcslip/problems/response/power_balance.hpp"
 #include "arcslip/problems/tasks/verification.hpp"
 #include "catch.hpp"
@@ -89,7 +90,7 @@ ComplexMatrix dense_receptance(const FiniteSector& sector, Index size, double et
                           (Matrix(sector.stiffness) + Matrix(sector.damping) * Complex(0, w) -
                            Matrix(sector.mass) * Complex(w * w, 0)) *
                           t;
-  return t * z.fullPivLu().inverse() * t.adjoint();
+  return t * solver_of(z)(t.adjoint());
 }
 
 /// First harmonic of an elastic slider's force over k r, in closed form from the area and the corners of its
@@ -118,7 +119,7 @@ ComplexVector relative_motion(const ComplexVector& free, const Balance& balance)
     }
     Vector right(2 * r.size());
     right << rest.real(), rest.imag();
-    const Vector step = slope.fullPivLu().solve(-right);
+    const Vector step = solution_of(slope, Vector(-right));
     ComplexVector correction(r.size());
     for (Index j = 0; j < r.size(); ++j) correction(j) = {step(2 * j), step(2 * j + 1)};
     if (correction.norm() <= 1e-14 * r.norm()) return r;

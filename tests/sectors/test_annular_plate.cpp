@@ -1,6 +1,7 @@
 #include "arcslip/sectors/annular_plate.hpp"
 
 #include "annular_plate_modes.hpp"
+#include "arcslip/dense.hpp"
 #include "arcslip/sectors/matrix_market.hpp"
 #include "arcslip/sectors/sector_reduction.hpp"
 #include "catch.hpp"
@@ -73,7 +74,7 @@ class Stretched {
                         nu / r * (slope * value.transpose() + value * slope.transpose()));
       load += area * (1 - nu * nu) * plate.density * r * value;  // over E
     });
-    motion_ = energy.ldlt().solve(load);
+    motion_ = solution_of(Matrix(energy), Vector(load));
   }
 
   /// Along the radius and round it.

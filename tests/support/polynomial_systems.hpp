@@ -11,13 +11,13 @@
 // seen as u = Q^-1 x, with any matrix Q.
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "arcslip/dense.hpp"
 #include "branches.hpp"
 
 namespace arcslip::testing {
@@ -162,7 +162,7 @@ struct RandomPolynomials {
     for (double& entry : any.reshaped()) entry = uniform(-1, 1);
     Vector sizes(n);
     for (double& size : sizes) size = uniform(0.5, 2);
-    system.to_x = sizes.asDiagonal() * Matrix(Eigen::HouseholderQR<Matrix>(any).householderQ());
+    system.to_x = sizes.asDiagonal() * orthonormal(any);
     system.from_x = system.to_x.inverse();
   }
 

@@ -1,15 +1,13 @@
 #include "sector_frequencies.hpp"
 
-#include <Eigen/Eigenvalues>
-
+#include "arcslip/dense.hpp"
 #include "arcslip/sectors/sector_reduction.hpp"
 #include "sector_examples.hpp"
 
 namespace arcslip::testing {
 
 Vector squared_frequencies(const ComplexMatrix& stiffness, const ComplexMatrix& mass) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<ComplexMatrix>(stiffness, mass, Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return pencil(stiffness, mass).value().values;
 }
 
 Vector squared_frequencies(const FiniteSector& sector, Index wave_number, Index sectors) {

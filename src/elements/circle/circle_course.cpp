@@ -231,12 +231,8 @@ FurtherSlips CircleCourse::further_slips() const {
 
 double CircleCourse::fraction(Phase phase) const {
   double sum = 0;
-  double whole = 0;  // 2 pi but for rounding
-  for (const Arc& arc : arcs_) {
-    whole += arc.width;
-    sum += arc.phase == phase ? arc.width : 0;
-  }
-  return whole > 0 ? sum / whole : 0;
+  for (const Arc& arc : arcs_) sum += arc.phase == phase ? arc.width : 0;
+  return sum / two_pi;
 }
 
 }  // namespace arcslip

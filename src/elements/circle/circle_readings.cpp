@@ -44,20 +44,24 @@ class CircleReader {
   }
 
   ContactReadings read() const {
+    constexpr double rounding = 1e-13;  // of an arc that is none
     Row slip = Row::Zero(columns_.size());
     Row apart = slip;
     double slips = 0;
     double comes_apart = 0;
+    double whole = 0;  // 2 pi but for what is rounding
     for (std::size_t i = 0; i < arcs_.size(); ++i) {
       const CircleArc& arc = arcs_[i];
+      if (!(arc.width > rounding)) continue;
+      whole += arc.width;
       if (arc.phase == Phase::stick) continue;
       (arc.phase == Phase::slip ? slips : comes_apart) += arc.width;
       if (!derivatives_ || arcs_.size() == 1 || !(arc.width > narrow)) continue;
       (arc.phase == Phase::slip ? slip : apart) += end_of(i) - begin_of(i);
     }
     const auto [traction, by] = greatest();
-    return {number(traction, by), number(slips / two_pi, slip / two_pi),
-            number(comes_apart / two_pi, apart / two_pi)};
+    return {number(traction, by), number(slips / whole, slip / two_pi),
+            number(comes_apart / whole, apart / two_pi)};
   }
 
   /// A changes along with what brings it back after the period.
