@@ -217,3 +217,27 @@ TEST_CASE("A polyline keeps all points, corners among them, and the counts of wh
   }
   CHECK(next == branch.points.size());
 }
+
+TEST_CASE("What is drawn is looked at where that is open, and what is rounding is not drawn") {
+  const Needle needle(1e-4);
+  const Branch branch = trace(needle, {vector_of({std::log(2e-4)}), vector_of({0.5})}, over("p", 0.5, 2));
+  std::vector<double> values(1);
+  std::size_t looks = 0;
+  const auto points = [&](const auto& value) {
+    looks = 0;
+    const auto drawn = [&](const BranchPoint& point) -> const std::vector<double>& {
+      ++looks;
+      values[0] = value(point);
+      return values;
+    };
+    return polyline(branch, 0, drawn).points.size();
+  };
+  const std::size_t count = points([](const BranchPoint& point) { return std::exp(point.unknowns(0)); });
+  CHECK(count > 3 * branch.points.size());
+  CHECK(looks < 3 * count / 2);
+  // A limit that a sum of large numbers only has to their rounding.
+  const auto limit = [](const BranchPoint& point) { return 1 + 1e-11 * std::sin(1e6 * point.parameters(0)); };
+  CHECK(points(limit) == branch.points.size());
+  const auto wave = [](const BranchPoint& point) { return 1 + 1e-8 * std::sin(20 * point.parameters(0)); };
+  CHECK(points(wave) > branch.points.size());
+}
