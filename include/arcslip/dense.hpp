@@ -14,6 +14,7 @@ namespace arcslip {
 Vector solution_of(const Matrix& a, const Vector& b);
 Matrix solution_of(const Matrix& a, const Matrix& b);
 ComplexVector solution_of(const ComplexMatrix& a, const ComplexVector& b);
+ComplexMatrix solution_of(const ComplexMatrix& a, const ComplexMatrix& b);
 Eigen::Vector2d solution_of(const Eigen::Matrix2d& a, const Eigen::Vector2d& b);
 
 /// X of A X = B by B, of an A that is factored once.

@@ -42,6 +42,10 @@ ComplexVector solution_of(const ComplexMatrix& a, const ComplexVector& b) {
   return a.partialPivLu().solve(b);
 }
 
+ComplexMatrix solution_of(const ComplexMatrix& a, const ComplexMatrix& b) {
+  return a.partialPivLu().solve(b);
+}
+
 Eigen::Vector2d solution_of(const Eigen::Matrix2d& a, const Eigen::Vector2d& b) {
   return a.partialPivLu().solve(b);
 }

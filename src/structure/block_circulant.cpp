@@ -38,7 +38,7 @@ bool invert_block_circulant(ComplexMatrix& a, Index blocks) {
   ComplexMatrix waves = entries * turns.conjugate();
   for (Index m = 0; m < blocks; ++m) {
     Eigen::Map<ComplexMatrix> wave(waves.col(m).data(), size, size);
-    wave = solver_of(wave)(ComplexMatrix::Identity(size, size));
+    wave = solution_of(ComplexMatrix(wave), ComplexMatrix(ComplexMatrix::Identity(size, size)));
   }
   entries.noalias() = waves * (turns / static_cast<double>(blocks));
   for (Index j = 0; j < blocks; ++j) {

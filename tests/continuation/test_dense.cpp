@@ -48,6 +48,7 @@ TEST_CASE("Linear equations are solved, and the sign of a determinant changes wi
   REQUIRE(largest(Matrix(a * solution_of(a, many) - many)) < 1e-11);
   REQUIRE(largest(ComplexVector(c * solution_of(c, right) - right)) < 1e-11);
   const ComplexMatrix columns = random_complex(n, 2, 6);
+  REQUIRE(largest(ComplexMatrix(c * solution_of(c, columns) - columns)) < 1e-11);
   const auto solver = solver_of(c);
   REQUIRE(largest(ComplexMatrix(c * solver(columns) - columns)) < 1e-11);
   REQUIRE(largest(ComplexMatrix(c * solver(right) - right)) < 1e-11);

@@ -90,7 +90,7 @@ ComplexMatrix dense_receptance(const FiniteSector& sector, Index size, double et
                           (Matrix(sector.stiffness) + Matrix(sector.damping) * Complex(0, w) -
                            Matrix(sector.mass) * Complex(w * w, 0)) *
                           t;
-  return t * solver_of(z)(t.adjoint());
+  return t * solution_of(z, ComplexMatrix(t.adjoint()));
 }
 
 /// First harmonic of an elastic slider's force over k r, in closed form from the area and the corners of its
