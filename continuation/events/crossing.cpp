@@ -85,7 +85,7 @@ bool CrossingSearch::may_find(bool pairs) const {
   }
   const std::span<const double> at(places.data(), count);
   return may_vanish_twice(at, {values.data(), count}) &&
-         !(has_one_sign && !logarithm_may_fall(at, {logs.data(), count}));
+         (!has_one_sign || logarithm_may_fall(at, {logs.data(), count}));
 }
 
 bool CrossingSearch::search(bool may_leap) {

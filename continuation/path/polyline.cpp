@@ -199,11 +199,11 @@ class Polyline {
     const Coordinates twist = 0.5 * (middle / 0.75 - 2 * near + beyond.at / 1.5 - bend);
     const auto is_told = [&](const Segment& half) {
       return for_all_axes(bend / 16, half, [&](Index x) {
-        along_ = unlike * 3 / 64 * twist * per_size_;
-        along_ = (along_(x) * end_ - along_ * end_(x)).abs();
-        along_(0) = along_(way_.size() / 2) = 0;
-        return ((off_.abs() + along_).square() > straight * straight * (end_(x) * end_(x) + end_.square()))
-            .any();
+        way_ = unlike * 3 / 64 * twist * per_size_;
+        along_ = off_.abs();
+        set_off(x);
+        off_ = off_.abs() + along_;
+        return is_off(x);
       });
     };
     return is_told(first) && is_told(second);
@@ -212,9 +212,7 @@ class Polyline {
   /// Whether the middle lies on the line from end to end, for each observable over the parameter and for both
   /// of their axes. What is not a number, or of no size, is.
   bool is_straight(const Segment& segment, const Coordinates& here) {
-    return for_all_axes(here - segment.begin, segment, [&](Index x) {
-      return (off_.square() > straight * straight * (end_(x) * end_(x) + end_.square())).any();
-    });
+    return for_all_axes(here - segment.begin, segment, [&](Index x) { return is_off(x); });
   }
 
   /// Whether such a way leads no farther off the line from end to end, nor along it.
@@ -232,14 +230,23 @@ class Polyline {
   bool for_all_axes(const Coordinates& way, const Segment& segment, const IsRefused& is_refused) {
     const Index count = way.size() / 2;
     per_size_ = (segment.size > 0).select(segment.size.inverse(), 0);
-    way_ = way * per_size_;
     end_ = (segment.end - segment.begin) * per_size_;
     for (const Index x : {Index{0}, count}) {
-      off_ = way_(x) * end_ - way_ * end_(x);
-      off_(0) = off_(count) = 0;  // the parameter over itself
+      way_ = way * per_size_;
+      set_off(x);
       if (is_refused(x)) return false;
     }
     return true;
+  }
+
+  /// How far the way leads off the line, times its length.
+  void set_off(Index x) {
+    off_ = way_(x) * end_ - way_ * end_(x);
+    off_(0) = off_(off_.size() / 2) = 0;  // the parameter over itself
+  }
+
+  bool is_off(Index x) const {
+    return (off_.square() > straight * straight * (end_(x) * end_(x) + end_.square())).any();
   }
 
   BranchPoint point_between(std::size_t piece, double x) const {
