@@ -81,6 +81,16 @@ Zero first_extremum(StepSearch& step, std::size_t m, int before, bool changes) {
   return beside_corner(step, i, before);
 }
 
+/// Whether an observable has just turned, so that another zero of its slope is rounding: it turns together
+/// with a fold of a ridge, and up to there signs were looked at.
+bool has_just_turned(const StepSearch& step, std::size_t m, const Zero& zero) {
+  const Step& taken = step.stepper.step();
+  const double chord = taken.chord.norm();
+  const double last_steps = taken.past.empty() ? 0 : taken.past.back().behind;
+  const double way = step.signs.since[m] + chord * zero.s / taken.distance;
+  return zero.state == Zero::State::found && way <= step.tolerances.just_passed * (last_steps + chord);
+}
+
 /// Pairs of them on one piece are left to the step, which has to resolve the observable.
 void search_extrema(StepSearch& step) {
   for (Index i = 0; i < step.stepper.monitors().tracked_count() && step.solved(); ++i) {
@@ -90,14 +100,16 @@ void search_extrema(StepSearch& step) {
     const double after = step.at_upper(slope, sign_of_slope(step.stepper, m, step.stepper.step().to[m]));
     const bool changes = before * sign_of(after) < 0 || ends_on_extremum(step, slope, before);
     if (changes && step.stepper.is_near_meeting()) continue;
-    step.note(observable_extrema, before > 0 ? PointType::peak : PointType::trough, i,
-              first_extremum(step, m, before, changes));
+    const Zero zero = first_extremum(step, m, before, changes);
+    if (!has_just_turned(step, m, zero))
+      step.note(observable_extrema, before > 0 ? PointType::peak : PointType::trough, i, zero);
   }
 }
 
 void pass_extremum(const Event& event, const Passage& passage) {
   const auto i = static_cast<std::size_t>(event.index);
   passage.behind.observables[i] = -passage.before.observables[i];
+  passage.behind.since[i] = 0;
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr std::string_view signature = "arcslip-checkpoint-";
-constexpr int newest = 7;  // of the versions of the text
+constexpr int newest = 8;  // of the versions of the text
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -172,6 +172,7 @@ void progress(Archive& archive, Way& way) {
   counts(archive, way.found);
   if constexpr (Archive::reads) {
     for (auto* further : {&twist, &change}) further->setZero(bend.size());
+    way.signs.since.assign(way.signs.observables.size(), std::numeric_limits<double>::infinity());
   }
   if (archive.version == 1) return;
   archive(way.last_value);
@@ -208,6 +209,8 @@ void progress(Archive& archive, Way& way) {
   if (archive.version < 7) return;
   for (auto* further : {&twist, &change}) list(archive, *further, number);
   archive(way.bends.length);
+  if (archive.version < 8) return;
+  list(archive, way.signs.since, number);
 }
 
 Stop read_stop(const std::string& name) {

@@ -102,6 +102,8 @@ void Tracer::require_same(const Progress& progress) const {
     require_count("entries in a bend", n + 1, bend.size());
   require_count("observables whose extrema are looked for", stepper_.monitors().tracked_count(),
                 std::ssize(progress.signs.observables));
+  require_count("ways since they turned", stepper_.monitors().tracked_count(),
+                std::ssize(progress.signs.since));
   require_count("observables and borders",
                 stepper_.monitors().tracked_count() + problem_.border_count(here.regime),
                 std::ssize(progress.monitors));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace arcslip::continuation {
 
@@ -138,6 +139,7 @@ Signs signs_at_start(const Stepper& stepper, const Watch& watch) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(stepper.monitors().tracked_count()); ++i)
     signs.observables.push_back(
         sign_of_slope(stepper, i, stepper.at_here()[i], stepper.tolerances().no_rate));
+  signs.since.assign(signs.observables.size(), std::numeric_limits<double>::infinity());
   for (const double value : watch.functions()) signs.functions.push_back(sign_of(value));
   signs.unstable = watch.unstable();
   return signs;
@@ -166,6 +168,7 @@ void update(Signs& signs, const Stepper& stepper, const Watch& watch, bool at_ev
   take(signs.parameter, sign_of_rate(stepper, stepper.parameter_slope(Hold::tangent)));
   for (std::size_t i = 0; i < signs.observables.size(); ++i)
     take(signs.observables[i], sign_of_slope(stepper, i, stepper.at_here()[i]));
+  for (double& since : signs.since) since += stepper.step().past.front().behind;
   for (std::size_t i = 0; i < signs.functions.size(); ++i)
     take(signs.functions[i], sign_of(watch.functions()[i]));
   signs.unstable = counted(signs.unstable, stepper, watch);

@@ -1,7 +1,13 @@
 // Curves of peaks over the preload, across the border of stick and corners within slip.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "arcslip/assembly/system.hpp"
 #include "arcslip/cases/runs.hpp"
@@ -134,6 +140,42 @@ max_points = 90
   // Responses at 0.2158 have both, those at 0.2159 neither.
   CHECK_THAT(curve.points[turns[0]].parameters(0), WithinAbs(0.21585, 5e-5));
   CHECK(curve.points.back().parameters(0) < 0.2158);
+}
+
+TEST_CASE("Y turns once where a ridge turns over the preload, though rounding hides how", "[cases]") {
+  // There dY = (dY/dP) dP, so that both turn at one place, and slopes beside it are rounding.
+  for (const std::array<double, 3>& setting :
+       {std::array{2.131228021269089, 12.063452697019208, 3.052027154277806e-05},
+        std::array{0.6862948623672506, 1.236160013680685, 0.0006051745585799982},
+        std::array{2.50432710844117, 2.552638041346876, 7.465653879842023e-05},
+        std::array{5.798640078252716, 5.115365308196671, 9.005653568863891e-05},
+        std::array{3.716397083493467, 1.7334878103251132, 0.0033778375683849375},
+        std::array{5.0, 4.0, 0.00012338007011604166}}) {
+    for (const double longest : {0.1, 0.031}) {
+      CAPTURE(setting, longest);
+      const Case input = read_case(source_folder() + "/problems/ridge.toml",
+                                   {fmt::format("system.mass_ratio={}", setting[0]),
+                                    fmt::format("system.frequency_ratio={}", setting[1]),
+                                    fmt::format("system.damping.base={}", setting[2]),
+                                    fmt::format("continuation.max_step={}", longest)});
+      int folds = 0;
+      for (const TracedBranch& curve : trace(input.branches.front())) {
+        std::vector<BranchPoint> extrema;
+        for (const BranchPoint& point : curve.branch.points)
+          if (point.type == PointType::peak || point.type == PointType::trough) extrema.push_back(point);
+        for (std::size_t i = 1; i < extrema.size(); ++i)
+          CHECK(std::abs(extrema[i].arclength - extrema[i - 1].arclength) > 1e-7);
+        for (const BranchPoint& fold : of_type(curve.branch, PointType::fold)) {
+          ++folds;
+          const auto is_there = [&](const BranchPoint& extremum) {
+            return std::abs(extremum.arclength - fold.arclength) < 1e-9;
+          };
+          CHECK(std::count_if(extrema.begin(), extrema.end(), is_there) == 1);
+        }
+      }
+      CHECK(folds > 0);
+    }
+  }
 }
 
 TEST_CASE("An extremum is followed from response to response in long steps and back", "[cases]") {

@@ -212,9 +212,9 @@ TEST_CASE("Regimes of the second version of checkpoints are bits") {
     for (std::size_t at = 0; (at = old.find(now, at)) != std::string::npos; at += then.size())
       old.replace(at, now.size(), then);
   };
-  replace("arcslip-checkpoint-7", "arcslip-checkpoint-2");
+  replace("arcslip-checkpoint-8", "arcslip-checkpoint-2");
   const std::string straight = "3\n0x0p+0\n0x0p+0\n0x0p+0\n";
-  replace("\n0\nnan\n0x0p+0\n0\n" + straight + straight + "0x0p+0\nno_start\n", "\nno_start\n");
+  replace("\n0\nnan\n0x0p+0\n0\n" + straight + straight + "0x0p+0\n0\nno_start\n", "\nno_start\n");
   replace("3\nstates 0\nstates 1\nstates 01\n", "4\nstates 0\nstates 1\nstates 01\nstates 11\n");
   REQUIRE(digits(guess.regime).size() == 2);
   replace("\n" + digits(guess.regime) + "\n", guess.regime[0] == 1 ? "\n3\n" : "\n2\n");

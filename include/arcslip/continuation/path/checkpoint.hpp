@@ -52,6 +52,7 @@ constexpr std::size_t most_past = 3;  ///< points before this one that are remem
 struct Signs {
   int parameter = 0;             ///< of its change along the branch
   std::vector<int> observables;  ///< of the derivatives of those tracked
+  std::vector<double> since;     ///< each of these turned last: the arclength; infinite on another piece
   std::vector<int> functions;    ///< of the tests of the problem, then of the user's events
   int unstable = -1;             ///< eigenvalues with a positive real part; -1 without eigenvalues
   bool at_crossing = false;      ///< here some of them were told to vanish
