@@ -356,6 +356,7 @@ Branch ExtremumTracer::half(const BasePoint& start, bool corner, bool towards_to
     if (!begins && !walk_from(start, towards_to)) return std::move(curve_);
   }
   while (go_on()) curve_.checkpoint.reset();
+  tell_turns_once();
   return std::move(curve_);
 }
 

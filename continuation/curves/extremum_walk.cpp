@@ -5,12 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "arcslip/continuation/curves/extremum_tracer.hpp"
 #include "arcslip/continuation/curves/response_extremum.hpp"
 #include "arcslip/continuation/linear/borders.hpp"
 
 namespace arcslip::continuation {
+namespace {
+
+bool turns_at(const BranchPoint& row) {
+  return row.type == PointType::fold || row.type == PointType::corner_fold;
+}
+
+}  // namespace
 
 /// The nearest value that wants a row on the way, which ends there at the latest.
 double ExtremumTracer::next_value(double from, double to) const {
@@ -47,24 +56,30 @@ double ExtremumTracer::way_so_far(double scale) const {
     const BranchPoint& point = curve_.points[i];
     const double change = here - point.parameters(parameter_);
     if (std::abs(change) > options_.tolerances.same_point * scale) return change > 0 ? sense : -sense;
-    if (point.type == PointType::fold || point.type == PointType::corner_fold) sense = -sense;
+    if (turns_at(point)) sense = -sense;
   }
   return curve_.points.back().tangent(problem_.size()) > 0 ? 1 : -1;
 }
 
-/// Goes on as a smooth extremum from the last row. False where that leads nowhere, or back, and leaves no
-/// row.
-bool ExtremumTracer::smoothly_on(const BasePoint& here, double sense) {
+/// Goes on as a smooth extremum from the last row. False where that leads nowhere, back, or along another
+/// one, and leaves no row.
+bool ExtremumTracer::smoothly_on(const Walk& walk, ResponseExtremum& extrema) {
   constexpr std::size_t enough = 5;  // rows
   const std::size_t before = curve_.points.size();
-  smooth(guess_at(here, curve_.points.back().tangent), true, 1);
+  smooth(guess_at(walk.here, curve_.points.back().tangent), true, 1);
   if (is_unfinished(curve_.stop) && !near_) return true;
   const std::size_t added = curve_.points.size() - before;
-  const std::size_t seen = before + std::min(added, enough) - 1;
-  const bool ahead = added > 0 && (curve_.points[seen].parameters(parameter_) - value(here)) * sense > 0;
+  const auto begin = curve_.points.begin() + static_cast<std::ptrdiff_t>(before);
+  const auto turn = std::find_if(begin, curve_.points.end(), turns_at);  // behind which peaks are troughs
+  const auto seen = std::min(begin + static_cast<std::ptrdiff_t>(std::min(added, enough)), turn);
+  const bool ahead = seen != begin && (seen[-1].parameters(parameter_) - value(walk.here)) * walk.sense > 0;
+  std::optional<bool> peak;
+  for (auto row = seen - 1; ahead && row != turn && !peak; ++row) peak = is_peak(*row, extrema);
+  for (auto row = seen - 1; ahead && row != begin && !peak; --row) peak = is_peak(row[-1], extrema);
+  const bool is_same = peak == walk.peak;
   const bool ends = is_end(curve_.stop) || near_ || told_to_end_ || curve_.stop == Stop::max_points;
   const bool goes_round = curve_.stop == Stop::repeats;
-  if (ahead && !goes_round && (added >= enough || ends)) return true;
+  if (ahead && is_same && !goes_round && (added >= enough || ends)) return true;
   curve_.points.resize(before);
   seen_ = std::min(seen_, before);
   near_ = false;
@@ -108,14 +123,47 @@ bool ExtremumTracer::past_turn() {
   return false;
 }
 
-/// A fold and the extremum of what is looked for along the curve that it is, too.
+/// A fold and the extremum of what is looked for along the curve that it is, too, in place of the rows that
+/// are there, which rounding has made of it.
 void ExtremumTracer::add_turn(BranchPoint fold) {
+  const auto is_here = [&](const BranchPoint& row) {
+    return steps(way(row, fold), fold).norm() < options_.tolerances.same_point;
+  };
+  while (curve_.points.size() > 1 && is_here(curve_.points.back())) curve_.points.pop_back();
   const double rises = observable_rate(fold, way(curve_.points.back(), fold));
   fold.type = PointType::fold;
   add(fold);
   if (told_to_end_ || options_.extrema_of.empty()) return;
   fold.type = rises > 0 ? PointType::peak : PointType::trough;
   add(std::move(fold));
+}
+
+/// Where the parameter stands still, rounding makes turns of it and extrema along the curve. One of each is
+/// told where it goes back behind them, none where it goes on.
+void ExtremumTracer::tell_turns_once() {
+  constexpr double rounding = 1e-12;  // of the parameter, in its scale
+  std::vector<BranchPoint>& rows = curve_.points;
+  const auto is_extremum = [](const BranchPoint& row) {
+    return row.type == PointType::peak || row.type == PointType::trough;
+  };
+  for (auto first = rows.begin(); (first = std::find_if(first, rows.end(), turns_at)) != rows.end();) {
+    const double here = first->parameters(parameter_);
+    const double scale = parameter_scale(*first);
+    const auto change = [&](const BranchPoint& row) { return row.parameters(parameter_) - here; };
+    const auto moves = [&](const BranchPoint& row) { return std::abs(change(row)) > rounding * scale; };
+    const auto before = std::find_if(std::reverse_iterator(first), rows.rend(), moves);
+    const auto behind = std::find_if(first, rows.end(), moves);
+    if (before != rows.rend() && behind != rows.end()) {
+      const bool turns = change(*before) * change(*behind) > 0;
+      bool turn_is_told = !turns;
+      bool extremum_is_told = !turns;
+      for (auto row = before.base(); row != behind; ++row) {
+        if (turns_at(*row) && std::exchange(turn_is_told, true)) row->type = PointType::regular;
+        if (is_extremum(*row) && std::exchange(extremum_is_told, true)) row->type = PointType::regular;
+      }
+    }
+    first = behind;
+  }
 }
 
 /// Whether the curve has turned where it stands before, a while ago: then it goes back on itself.
@@ -130,16 +178,19 @@ bool ExtremumTracer::has_turned_here() const {
   return false;
 }
 
-/// Whether the last rows are peaks, as the last one tells next to which there are not both, as there are
-/// beside a corner where a peak and a trough vanish together.
+/// Whether a row is a peak, where the slopes beside it tell.
+std::optional<bool> ExtremumTracer::is_peak(const BranchPoint& row, ResponseExtremum& extrema) const {
+  const BasePoint at = split(row);
+  return extrema.begin(at) ? extrema.is_peak(at) : std::nullopt;
+}
+
+/// Whether the last rows are peaks, as the last one tells that does, and turns behind it.
 std::optional<bool> ExtremumTracer::were_peaks(ResponseExtremum& extrema) const {
-  constexpr std::size_t most = 20;  // rows
-  const double beside = options_.tolerances.beside_extremum;
+  constexpr std::size_t most = 100;  // rows
+  bool turned = false;
   for (std::size_t i = curve_.points.size(); i-- > 0 && i + most >= curve_.points.size();) {
-    const BasePoint at = split(curve_.points[i]);
-    if (!extrema.begin(at)) return std::nullopt;
-    const bool as_peak = extrema.next_to(at, true, beside).has_value();
-    if (as_peak != extrema.next_to(at, false, beside).has_value()) return as_peak;
+    if (const std::optional<bool> peak = is_peak(curve_.points[i], extrema)) return *peak != turned;
+    if (turns_at(curve_.points[i])) turned = !turned;
   }
   return std::nullopt;
 }
@@ -155,14 +206,15 @@ std::optional<BasePoint> ExtremumTracer::begin_walk(ResponseExtremum& extrema, b
     const BasePoint at = split(curve_.points.back());
     return extrema.begin(at) ? extrema.next_to(at, as_peak, beside) : std::nullopt;
   };
+  std::optional<bool> kind = were_peaks(extrema);
   std::optional<ResponseExtremum::Found> found;
   for (std::size_t back = 0; back < most_back && !found; ++back) {
     if (back > 0 && curve_.points.size() < 2) break;
+    if (back > 0 && turns_at(curve_.points.back()) && kind) kind = !*kind;
     if (back > 0) curve_.points.pop_back();
-    const auto as_peak = nearest(true);
-    const auto as_trough = nearest(false);
-    peak = as_peak &&
-           (!as_trough || were_peaks(extrema).value_or(std::abs(as_peak->way) <= std::abs(as_trough->way)));
+    const auto as_peak = kind.value_or(true) ? nearest(true) : std::nullopt;
+    const auto as_trough = kind.value_or(false) ? std::nullopt : nearest(false);
+    peak = as_peak && (!as_trough || std::abs(as_peak->way) <= std::abs(as_trough->way));
     found = peak ? as_peak : as_trough;
   }
   if (!found || std::abs(found->way) <= same) return found ? std::optional(found->at) : std::nullopt;
@@ -206,6 +258,7 @@ void ExtremumTracer::stride(Walk& walk, const ResponseExtremum::Found& next, dou
   walk.predicts = true;
   ++walk.walked;
   walk.flips = 0;
+  walk.widens = false;
 }
 
 /// Where the extremum vanishes together with one of the other kind: on that the curve goes back. False where
@@ -213,11 +266,19 @@ void ExtremumTracer::stride(Walk& walk, const ResponseExtremum::Found& next, dou
 bool ExtremumTracer::fold_back(Walk& walk, ResponseExtremum& extrema) {
   constexpr double far = 1e-5;  // on the response, in the scale: to the other one of a pair that vanishes
   constexpr int most = 10;      // rows on which rounding hides it
-  auto other = extrema.next_to(walk.here, !walk.peak, far);
+  const auto other_at = [&](const BasePoint& at) { return extrema.next_to(at, !walk.peak, far); };
+  auto other = other_at(walk.here);
   for (int back = 0; back < std::min(most, walk.walked) && !other && curve_.points.size() > 1; ++back) {
     curve_.points.pop_back();
-    other = extrema.next_to(split(curve_.points.back()), !walk.peak, far);
+    other = other_at(split(curve_.points.back()));
   }
+  std::optional<ResponseExtremum::Found> behind;  // from where on the other one is told
+  const std::size_t last = curve_.points.size() - 1;
+  for (std::size_t back = 1; back < most && back <= last && !other && !behind; ++back) {
+    const BasePoint at = split(curve_.points[last - back]);
+    if ((value(at) - value(walk.here)) * walk.sense < 0) behind = other_at(at);
+  }
+  if (behind) other = {split(curve_.points.back()), 0, false};
   if (!other || ++walk.flips > 1) {
     stop(Stop::min_step,
          fmt::format("the extremum is lost on a corner that no border tells of, at {}", place()));
@@ -234,7 +295,8 @@ bool ExtremumTracer::fold_back(Walk& walk, ResponseExtremum& extrema) {
   fold.tangent = -curve_.points.back().tangent;
   add(std::move(fold));
   if (told_to_end_ || is_satisfied()) return false;
-  if (!has_turned_here()) return true;
+  if (behind) stride(walk, *behind, value(behind->at));
+  if (!has_turned_here()) return !told_to_end_;
   stop(Stop::min_step, "the curve goes back on itself, at " + place());
   return false;
 }
@@ -252,6 +314,7 @@ double ExtremumTracer::reach_at(const Walk& walk, double to, double scale) const
 
 bool ExtremumTracer::walk() {
   constexpr double least_step = 1e-12;
+  constexpr double widest_step = 1e-5;  // from a turn to where rounding no longer hides how it goes on
   ResponseExtremum extrema(base_, problem_.active(), *problem_.extremum_of());
   Walk walk;
   const auto begin = begin_walk(extrema, walk.peak);
@@ -288,11 +351,12 @@ bool ExtremumTracer::walk() {
       if (told_to_end_) return false;
       if (next->corner || walk.walked < patience_ || !is_smooth(walk, scale)) continue;
       patience_ *= 2;
-      if (smoothly_on(walk.here, walk.sense)) return true;
+      if (smoothly_on(walk, extrema)) return true;
+      walk.predicts = extrema.begin(walk.here);
       continue;
     }
-    walk.step *= 0.25;
-    if (walk.step > least_step) continue;
+    walk.step *= walk.widens ? 4 : 0.25;
+    if (walk.widens ? walk.step < widest_step : walk.step > least_step) continue;
     if (next && !in_window) {
       curve_.points.back().type = PointType::end;
       stop(Stop::reached_end,
@@ -302,6 +366,11 @@ bool ExtremumTracer::walk() {
     if (next) {
       const auto place = meeting();
       return place && leave(*place);
+    }
+    if (walk.flips > 0 && !walk.widens) {
+      walk.widens = true;
+      walk.step = first_step;
+      continue;
     }
     if (!fold_back(walk, extrema)) return false;
   }

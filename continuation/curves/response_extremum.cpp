@@ -1,5 +1,6 @@
 #include "arcslip/continuation/curves/response_extremum.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,6 +27,13 @@ bool ResponseExtremum::begin(const BasePoint& point) {
   if (corrector_.linearise(at_, over_parameter) != Correction::converged) return false;
   forward_ = corrector_.direction().normalized();
   return true;
+}
+
+void ResponseExtremum::start_at(const BasePoint& point) {
+  origin_.unknowns = point.unknowns;
+  origin_.parameters = point.parameters;
+  origin_.regime = point.regime;
+  corrector_.set_scale(origin_);
 }
 
 /// Along the branch from the origin.
@@ -58,34 +66,75 @@ std::optional<double> ResponseExtremum::settle(double farthest) {
   return std::nullopt;
 }
 
+std::optional<bool> ResponseExtremum::is_peak(const BasePoint& at) {
+  constexpr double nearest = 1e-11;
+  constexpr double farthest = 1e-7;
+  constexpr double growth = 4;
+  start_at(at);
+  if (!settle(farthest)) return std::nullopt;
+  End low{};
+  End high{};
+  for (double way = nearest; way < farthest; way *= growth) {
+    const End below{-way, slope(-way)};
+    const End above{way, slope(way)};
+    const bool turns =
+        below.slope * above.slope < 0 && below.slope * low.slope > 0 && above.slope * high.slope > 0;
+    const bool grows = std::abs(below.slope - above.slope) > 2 * std::abs(low.slope - high.slope);
+    if (turns && grows) return below.slope > 0;
+    low = below;
+    high = above;
+  }
+  return std::nullopt;
+}
+
+/// Whether the slope jumps at its zero. On a side on which it does it is as large four times as near; one
+/// that is smooth is half as large at most. The other side may have a smooth extremum nearer than that.
+bool ResponseExtremum::is_corner(double way) {
+  constexpr double beside = 1e-9;
+  constexpr double like = 1.5;
+  constexpr double alone = 100;  // times the slope of the other side
+  const auto size = [&](double aside) { return std::abs(slope(way + aside * beside)); };
+  const double before = size(-1);
+  const double behind = size(1);
+  const bool jumps_before = size(-4) < like * before;
+  const bool jumps_behind = size(4) < like * behind;
+  return (jumps_before && (jumps_behind || before > alone * behind)) ||
+         (jumps_behind && behind > alone * before);
+}
+
+/// Where the slope jumps and keeps its sign: a place between in which it has the other one, if there is. On
+/// one side of a jump it may go with the root of the way from there, and so through zero right beside it.
+std::optional<ResponseExtremum::End> ResponseExtremum::beside_jump(End near, End far) {
+  constexpr double leaps = 4;  // while the way grows by a half
+  constexpr int halvings = 20;
+  const double ratio = far.slope / near.slope;
+  if (!(std::max(ratio, 1 / ratio) > leaps)) return std::nullopt;
+  for (int i = 0; i < halvings; ++i) {
+    const double way = 0.5 * (near.way + far.way);
+    const End middle{way, slope(way)};
+    if (middle.slope * near.slope < 0) return middle;
+    if (std::isnan(middle.slope)) return std::nullopt;
+    const bool is_near = std::abs(middle.slope - near.slope) < std::abs(middle.slope - far.slope);
+    (is_near ? near : far) = middle;
+  }
+  return std::nullopt;
+}
+
 std::optional<ResponseExtremum::Found> ResponseExtremum::next_to(const BasePoint& guess, bool peak,
                                                                  double farthest) {
   constexpr double nearest = 1e-13;
   constexpr double growth = 1.5;
-  origin_.unknowns = guess.unknowns;
-  origin_.parameters = guess.parameters;
-  origin_.regime = guess.regime;
-  corrector_.set_scale(origin_);
+  start_at(guess);
   const std::optional<double> beside_guess = settle(farthest);
   if (!beside_guess) return std::nullopt;
   const double sign = peak ? 1 : -1;
-  struct End {
-    double way;
-    double slope;
-  };
   const auto found = [&](const End& low, const End& high) -> std::optional<Found> {
     if (!(sign * low.slope > 0 && sign * high.slope <= 0)) return std::nullopt;
     const double way =
         zero_between([&](double s) { return slope(s); }, low.way, high.way, low.slope, high.slope);
     if (!go(way)) return std::nullopt;
     const BasePoint at{at_.unknowns, at_.parameters, at_.regime, {}};
-    // A slope that is as large four times as near jumps; a smooth one is half as large at most.
-    constexpr double beside = 1e-9;
-    constexpr double like = 1.5;
-    const auto jumps = [&](double side) {
-      return std::abs(slope(way + 4 * side * beside)) < like * std::abs(slope(way + side * beside));
-    };
-    return Found{at, *beside_guess + way, jumps(-1) && jumps(1)};
+    return Found{at, *beside_guess + way, is_corner(way)};
   };
   End low{-nearest, slope(-nearest)};
   End high{nearest, slope(nearest)};
@@ -95,6 +144,14 @@ std::optional<ResponseExtremum::Found> ResponseExtremum::next_to(const BasePoint
     const End above{way, slope(way)};
     if (const auto here = found(below, low)) return here;
     if (const auto here = found(high, above)) return here;
+    if (const auto between = beside_jump(low, below)) {
+      if (const auto here = found(*between, low)) return here;
+      if (const auto here = found(below, *between)) return here;
+    }
+    if (const auto between = beside_jump(high, above)) {
+      if (const auto here = found(high, *between)) return here;
+      if (const auto here = found(*between, above)) return here;
+    }
     low = below;
     high = above;
   }

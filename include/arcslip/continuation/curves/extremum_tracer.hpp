@@ -119,6 +119,7 @@ class ExtremumTracer {
     bool predicts = false;
     int walked = 0;
     int flips = 0;                                             // since the last row
+    bool widens = false;                                       // the steps that it tries from a turn
     double turned = std::numeric_limits<double>::quiet_NaN();  // the parameter where it last went back
   };
   bool walk();
@@ -126,10 +127,12 @@ class ExtremumTracer {
   void stride(Walk& walk, const ResponseExtremum::Found& next, double to);
   double reach_at(const Walk& walk, double to, double scale) const;
   bool fold_back(Walk& walk, ResponseExtremum& extrema);
+  std::optional<bool> is_peak(const BranchPoint& row, ResponseExtremum& extrema) const;
   std::optional<bool> were_peaks(ResponseExtremum& extrema) const;
   std::optional<BasePoint> begin_walk(ResponseExtremum& extrema, bool& peak);
-  bool smoothly_on(const BasePoint& here, double sense);
+  bool smoothly_on(const Walk& walk, ResponseExtremum& extrema);
   bool has_turned_here() const;
+  void tell_turns_once();
   double way_so_far(double scale) const;
   double next_value(double from, double to) const;
   bool is_asked_for(double value) const;

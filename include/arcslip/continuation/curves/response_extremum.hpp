@@ -28,14 +28,26 @@ class ResponseExtremum {
   /// within `farthest`.
   [[nodiscard]] std::optional<Found> next_to(const BasePoint& guess, bool peak, double farthest);
 
+  /// Whether an extremum is a peak, as slopes on both sides tell that rounding does not hide, the next ones
+  /// that do.
+  [[nodiscard]] std::optional<bool> is_peak(const BasePoint& at);
+
   /// Sets the way that counts as forward: that of rising active parameter at this point. False where it is
   /// not known; the last one stays.
   [[nodiscard]] bool begin(const BasePoint& point);
 
  private:
+  struct End {
+    double way;
+    double slope;
+  };
+
+  void start_at(const BasePoint& point);
   [[nodiscard]] bool go(double way);
   [[nodiscard]] std::optional<double> settle(double farthest);
   double slope(double way);
+  bool is_corner(double way);
+  std::optional<End> beside_jump(End near, End far);
 
   const Problem& base_;
   Index active_;
