@@ -128,7 +128,7 @@ window = [0.43135619248171664, 2.4761439223649298]
 from = 0.0052697472327088496
 to = 4.742772509437965
 [continuation]
-max_points = 90
+max_points = 130
 )");
   const std::vector<TracedBranch> curves = trace(input.branches.front());
   REQUIRE(!curves.empty());
