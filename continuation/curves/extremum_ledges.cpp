@@ -95,15 +95,21 @@ std::vector<ExtremumLedge> ExtremumTracer::ledges(const Place& place) {
 }
 
 /// The side beyond a border on both sides of which the response has one slope where the curve comes to it:
-/// there nothing but the regime changes.
+/// there nothing but the regime changes. It may go with the root of the way from there, and be far from zero
+/// where points are known to rounding, but less so than a little farther away.
 std::optional<CornerSlopes::Side> ExtremumTracer::smooth_side(const Place& place) {
+  constexpr double beside = 1e-5;  // in the scale
+  constexpr double rises = 0.2;    // of the slope there
   const Regime& regime = place.at.regime;
   for (int b = 0; b < base_.border_count(regime); ++b) {
     const double value = base_.border(place.at.unknowns, place.at.parameters, regime, b, nullptr);
     if (!(std::abs(value) <= options_.tolerances.together) || !slopes_.begin(place.at, b)) continue;
-    const double before = slopes_.slope(place.at, CornerSlopes::arriving);
-    const double behind = slopes_.slope(place.at, CornerSlopes::leaving);
-    if (!(std::max(std::abs(before), std::abs(behind)) <= options_.tolerances.same_slope)) continue;
+    const auto vanishes = [&](CornerSlopes::Side side) {
+      const double here = std::abs(slopes_.slope(place.at, side));
+      return here <= options_.tolerances.same_slope ||
+             here <= rises * std::abs(slopes_.slope_inside(place.at, side, beside));
+    };
+    if (!vanishes(CornerSlopes::arriving) || !vanishes(CornerSlopes::leaving)) continue;
     border_ = b;
     return slopes_.regime(CornerSlopes::leaving) == regime ? CornerSlopes::arriving : CornerSlopes::leaving;
   }

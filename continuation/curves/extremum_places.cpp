@@ -48,19 +48,19 @@ bool ExtremumTracer::enter(Side side) {
   here.regime = slopes_.regime(side);
   here.arrival = here.tangent;
   if (is_satisfied()) return false;
-  BasePoint corner = split(here);
-  corner.regime = slopes_.regime(CornerSlopes::arriving);
-  if (slopes_.touch(corner, options_.tolerances.touches)) return pass(corner, side);
-  corner = refined(corner, border_, side);
-  const Guess moved = guess_at(corner);
-  here.unknowns = moved.unknowns;
-  here.parameters = moved.parameters;
+  BasePoint met = split(here);
+  met.regime = slopes_.regime(CornerSlopes::arriving);
+  if (slopes_.touch(met, options_.tolerances.touches)) return pass(met, side);
+  const BasePoint corner = refined(met, border_, side);
   const auto [inside, from] = next_inside(corner, side);
   const auto outer = slopes_.extremum_inside(corner, side, from);
   const bool turns = outer && distance(*outer) < narrow;
   const auto next =
       turns ? first_inside(corner, side, -inside, distance(*outer)) : first_inside(corner, side, inside, 0);
-  if (!next) return ends_at_border();
+  if (!next) return pass(met, side);
+  const Guess moved = guess_at(corner);
+  here.unknowns = moved.unknowns;
+  here.parameters = moved.parameters;
   Vector direction = way(here, row(*next, PointType::regular));
   if (turns) {
     const auto fold = fold_beside(corner, border_, side);
@@ -88,9 +88,9 @@ bool ExtremumTracer::ends_at_border() {
   return false;
 }
 
-/// Goes on from a corner where the response touches the border, as it does where the observable is what the
-/// border is told by: the extremum comes to the border from the middle of one side and goes on in the middle
-/// of the other, and no point of the border beside it leads there.
+/// Goes on from a corner where the response touches the border, or all but does, as it does where the
+/// observable is what the border is told by: the extremum comes to the border from the middle of one side and
+/// goes on in the middle of the other, and no point of the border beside it leads there.
 bool ExtremumTracer::pass(const BasePoint& corner, Side side) {
   BranchPoint& here = curve_.points.back();
   const auto next = straight_on(corner, side);
