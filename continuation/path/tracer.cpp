@@ -72,12 +72,8 @@ Branch Tracer::run(const Progress& progress) {
     state_ = progress;
     stepper_.restore(progress);
     targets_.restore(progress.taken);
-    watch_.look(stepper_.here());
-    if (progress.looks.empty()) {
-      watch_.begin();
-    } else {
-      watch_.restore(progress.looks);
-    }
+    watch_.begin(stepper_.here());
+    if (!progress.looks.empty()) watch_.restore(progress.looks);
   });
 }
 
@@ -85,6 +81,7 @@ void Tracer::go_on() {
   while (!stopped_) {
     storing_ = false;
     state_.rescaled = static_cast<int>(stepper_.is_rescaled());
+    if (stepper_.is_rescaled()) watch_.begin(stepper_.here());  // whose tests have other units from here on
     check_limits();
     if (!stopped_) step();
   }
@@ -317,8 +314,7 @@ void Tracer::cross(int border, bool several) {
                 fmt::format("the branch beyond the border does not leave it, at {}", place()));
   }
   const std::vector<double> sizes = watch_.sizes();
-  watch_.look(stepper_.here());
-  watch_.begin();
+  watch_.begin(stepper_.here());
   store(PointType::regime_switch, {}, arrival);
   corner_events(before, sizes);
   stop_in_place();
@@ -336,8 +332,7 @@ bool Tracer::turn_back() {
   const std::size_t stored = branch_.points.size();
   if (!stepper_.turn_back()) return false;
   const std::vector<double> sizes = watch_.sizes();
-  watch_.look(stepper_.here());
-  watch_.begin();
+  watch_.begin(stepper_.here());
   corner_events(before, sizes);
   if (branch_.points.size() == stored) store(PointType::regular);
   state_.distance = first_step * options_.max_step / stepper_.slope_length(state_.hold);

@@ -55,8 +55,7 @@ void Tracer::start(const Guess& guess, double forward) {
   if (stepper_.is_over_parameter()) state_.distance = options_.max_step;
   storing_ = true;
   const bool on_branch_point = std::isinf(stepper_.here().log_determinant);
-  watch_.look(stepper_.here());
-  watch_.begin();
+  watch_.begin(stepper_.here());
   state_.signs = signs_at_start(stepper_, watch_);
   // The eigenvalue that vanishes at a branch point has no sign but that of rounding.
   if (on_branch_point) state_.signs.unstable = -1;

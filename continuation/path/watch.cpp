@@ -83,7 +83,8 @@ void Watch::keep(double chord) {
   kept_.insert(kept_.begin(), std::move(last));
 }
 
-void Watch::begin() {
+void Watch::begin(const CurvePoint& here) {
+  look(here);
   kept_.clear();
   keep(0);
 }

@@ -1,6 +1,8 @@
 // The case files of systems with friction against second methods.
 
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "case_runs.hpp"
 
@@ -158,4 +160,20 @@ TEST_CASE("Folds over the clearance of stops lie between two cusps, beyond which
                                          gap)});
     CHECK(count(run.traced[0], PointType::fold) == (gap > gaps[0] && gap < gaps[1] ? 2 : 0));
   }
+}
+
+TEST_CASE("A cusp behind a place where the conditions of a fold are renewed is told once", "[cases]") {
+  // What tells it has other units from there on.
+  std::vector<double> preloads;
+  for (const std::string longest : {"0.1", "0.05", "0.031"}) {
+    CAPTURE(longest);
+    const Run curve("cubic_fold_curve",
+                    {"system.mass_ratio=5.923537414035333", "system.frequency_ratio=3.228659370308073",
+                     "system.cubic_stiffness=11.316814796557594", "system.force=1.0657765144000926",
+                     "continuation.max_step=" + longest});
+    const auto cusps = points(curve.traced[0], PointType::cusp);
+    REQUIRE(cusps.size() == 1);
+    preloads.push_back(value(curve.traced[0], cusps[0], "P"));
+  }
+  for (const double preload : preloads) CHECK_THAT(preload, WithinRel(preloads.front(), 1e-10));
 }

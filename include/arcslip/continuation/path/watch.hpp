@@ -55,9 +55,10 @@ class Watch {
   std::size_t searched() const { return tests_.size() + events_.size(); }
 
   /// Keeps what was seen last as that of the point that the branch has come to, which lies `chord` behind the
-  /// one before; `begin` forgets those before.
+  /// one before.
   void keep(double chord);
-  void begin();
+  /// Looks at a point and forgets all before it.
+  void begin(const CurvePoint& here);
 
   /// The largest size of each function at the points that are kept.
   std::vector<double> sizes() const;
