@@ -123,13 +123,8 @@ bool ExtremumTracer::past_turn() {
   return false;
 }
 
-/// A fold and the extremum of what is looked for along the curve that it is, too, in place of the rows that
-/// are there, which rounding has made of it.
+/// A fold and the extremum of what is looked for along the curve that it is, too.
 void ExtremumTracer::add_turn(BranchPoint fold) {
-  const auto is_here = [&](const BranchPoint& row) {
-    return steps(way(row, fold), fold).norm() < options_.tolerances.same_point;
-  };
-  while (curve_.points.size() > 1 && is_here(curve_.points.back())) curve_.points.pop_back();
   const double rises = observable_rate(fold, way(curve_.points.back(), fold));
   fold.type = PointType::fold;
   add(fold);

@@ -1,8 +1,10 @@
 #include "arcslip/continuation/curves/response_extremum.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "arcslip/zero_between.hpp"
 
@@ -104,18 +106,18 @@ bool ResponseExtremum::is_corner(double way) {
 
 /// Where the slope jumps and keeps its sign: a place between in which it has the other one, if there is. On
 /// one side of a jump it may go with the root of the way from there, and so through zero right beside it.
-std::optional<ResponseExtremum::End> ResponseExtremum::beside_jump(End near, End far) {
+std::optional<ResponseExtremum::End> ResponseExtremum::beside_jump(End from, End to) {
   constexpr double leaps = 4;  // while the way grows by a half
   constexpr int halvings = 20;
-  const double ratio = far.slope / near.slope;
+  const double ratio = to.slope / from.slope;
   if (!(std::max(ratio, 1 / ratio) > leaps)) return std::nullopt;
   for (int i = 0; i < halvings; ++i) {
-    const double way = 0.5 * (near.way + far.way);
+    const double way = 0.5 * (from.way + to.way);
     const End middle{way, slope(way)};
-    if (middle.slope * near.slope < 0) return middle;
+    if (middle.slope * from.slope < 0) return middle;
     if (std::isnan(middle.slope)) return std::nullopt;
-    const bool is_near = std::abs(middle.slope - near.slope) < std::abs(middle.slope - far.slope);
-    (is_near ? near : far) = middle;
+    const bool is_before = std::abs(middle.slope - from.slope) < std::abs(middle.slope - to.slope);
+    (is_before ? from : to) = middle;
   }
   return std::nullopt;
 }
@@ -142,15 +144,14 @@ std::optional<ResponseExtremum::Found> ResponseExtremum::next_to(const BasePoint
   for (double way = growth * nearest; way < farthest; way *= growth) {
     const End below{-way, slope(-way)};
     const End above{way, slope(way)};
-    if (const auto here = found(below, low)) return here;
-    if (const auto here = found(high, above)) return here;
-    if (const auto between = beside_jump(low, below)) {
-      if (const auto here = found(*between, low)) return here;
-      if (const auto here = found(below, *between)) return here;
-    }
-    if (const auto between = beside_jump(high, above)) {
-      if (const auto here = found(high, *between)) return here;
-      if (const auto here = found(*between, above)) return here;
+    const std::array pieces{std::pair{below, low}, std::pair{high, above}};
+    for (const auto& [from, to] : pieces)
+      if (const auto here = found(from, to)) return here;
+    for (const auto& [from, to] : pieces) {
+      const auto between = beside_jump(from, to);
+      if (!between) continue;
+      if (const auto here = found(from, *between)) return here;
+      if (const auto here = found(*between, to)) return here;
     }
     low = below;
     high = above;

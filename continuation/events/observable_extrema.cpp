@@ -81,14 +81,15 @@ Zero first_extremum(StepSearch& step, std::size_t m, int before, bool changes) {
   return beside_corner(step, i, before);
 }
 
-/// Whether an observable has just turned, so that another zero of its slope is rounding: it turns together
-/// with a fold of a ridge, and up to there signs were looked at.
+/// Whether an observable has just turned, so that this zero of its slope is rounding, as next to a fold of a
+/// ridge, with which it turns.
 bool has_just_turned(const StepSearch& step, std::size_t m, const Zero& zero) {
+  if (zero.state != Zero::State::found) return false;
   const Step& taken = step.stepper.step();
   const double chord = taken.chord.norm();
   const double last_steps = taken.past.empty() ? 0 : taken.past.back().behind;
   const double way = step.signs.since[m] + chord * zero.s / taken.distance;
-  return zero.state == Zero::State::found && way <= step.tolerances.just_passed * (last_steps + chord);
+  return way <= step.tolerances.just_passed * (last_steps + chord);
 }
 
 /// Pairs of them on one piece are left to the step, which has to resolve the observable.

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -16,11 +15,11 @@
 #include "case_runs.hpp"
 #include "case_texts.hpp"
 #include "catch.hpp"
+#include "peak_curves.hpp"
 #include "places.hpp"
 
 using namespace arcslip;
 using namespace arcslip::testing;
-using continuation::BasePoint;
 using continuation::Branch;
 using continuation::BranchPoint;
 using continuation::PointType;
@@ -43,9 +42,7 @@ TEST_CASE("Y turns once where a ridge turns over the preload, though rounding hi
                                     fmt::format("continuation.max_step={}", longest)});
       int folds = 0;
       for (const TracedBranch& curve : trace(input.branches.front())) {
-        std::vector<BranchPoint> extrema;
-        for (const BranchPoint& point : curve.branch.points)
-          if (point.type == PointType::peak || point.type == PointType::trough) extrema.push_back(point);
+        const std::vector<BranchPoint> extrema = extrema_along(curve.branch);
         for (std::size_t i = 1; i < extrema.size(); ++i)
           CHECK(std::abs(extrema[i].arclength - extrema[i - 1].arclength) > 1e-7);
         for (const BranchPoint& fold : of_type(curve.branch, PointType::fold)) {
@@ -104,12 +101,7 @@ TEST_CASE("A curve of peaks goes on where a trough right beside its peak vanishe
   response.problem.system.preload = hidden.preload;
   response.options.from = hidden.low - 0.02;
   response.options.to = hidden.high + 0.02;
-  const Branch over_eta = trace(response).front().branch;
-  std::vector<double> extrema;
-  for (const BranchPoint& point : over_eta.points) {
-    if (point.type == PointType::peak || point.type == PointType::trough)
-      extrema.push_back(point.parameters(0));
-  }
+  const std::vector<BranchPoint> extrema = extrema_along(trace(response).front().branch);
   std::vector<double> met;
   for (const BranchPoint& point : of_type(curve, PointType::user)) {
     const double eta = traced.curve->split(point.unknowns, point.parameters, point.regime).parameters(0);
@@ -118,7 +110,7 @@ TEST_CASE("A curve of peaks goes on where a trough right beside its peak vanishe
   std::sort(met.begin(), met.end());
   REQUIRE(extrema.size() == 3);
   REQUIRE(met.size() == 3);
-  for (std::size_t i = 0; i < 3; ++i) CHECK_THAT(met[i], WithinRel(extrema[i], 1e-9));
+  for (std::size_t i = 0; i < 3; ++i) CHECK_THAT(met[i], WithinRel(extrema[i].parameters(0), 1e-9));
 }
 
 TEST_CASE("A peak goes on where its response all but touches the border of stick", "[cases]") {
@@ -159,23 +151,5 @@ from = 0.1
 to = 30.0
 )",
                                            settings);
-  std::map<double, std::vector<double>> met;
-  for (const TracedBranch& traced : trace(input.branches.front())) {
-    CHECK(traced.branch.complete());
-    for (const BranchPoint& point : of_type(traced.branch, PointType::user)) {
-      const BasePoint at = traced.curve->split(point.unknowns, point.parameters, point.regime);
-      met[at.parameters(1)].push_back(at.parameters(0));
-    }
-  }
-  for (const double preload : touch.preloads) {
-    CAPTURE(preload);
-    CaseBranch response = seed_branch(input.branches.front());
-    response.problem.system.preload = preload;
-    std::vector<double> peaks;
-    for (const BranchPoint& point : of_type(trace(response).front().branch, PointType::peak))
-      peaks.push_back(point.parameters(0));
-    std::sort(met[preload].begin(), met[preload].end());
-    REQUIRE(met[preload].size() == peaks.size());
-    for (std::size_t i = 0; i < peaks.size(); ++i) CHECK_THAT(met[preload][i], WithinRel(peaks[i], 1e-9));
-  }
+  CHECK(check_peaks_met(input.branches.front(), trace(input.branches.front())) == touch.preloads.size());
 }

@@ -11,6 +11,7 @@
 #include "case_runs.hpp"
 #include "case_texts.hpp"
 #include "catch.hpp"
+#include "peak_curves.hpp"
 #include "places.hpp"
 #include "temporary_folder.hpp"
 
@@ -65,24 +66,7 @@ TEST_CASE("Peaks of every contact's border are peaks of the responses", "[cases]
         case_texts::read_text(rods_peaks, {settings, "continuation.stop_at=[0.5, 1.9917, 2.5]"});
     const std::vector<TracedBranch> curves = trace(input.branches.front());
     REQUIRE(curves.size() == 2);
-    std::map<double, std::vector<double>> seen;
-    for (const TracedBranch& curve : curves) {
-      CHECK(curve.branch.complete());
-      for (const BranchPoint& point : of_type(curve.branch, PointType::user)) {
-        const BasePoint at = curve.curve->split(point.unknowns, point.parameters, point.regime);
-        seen[at.parameters(1)].push_back(at.parameters(0));
-      }
-    }
-    REQUIRE(seen.size() == 3);
-    for (const auto& [preload, etas] : seen) {
-      CaseBranch response = seed_branch(input.branches.front());
-      response.problem.system.preload = preload;
-      const Branch branch = trace(response).front().branch;
-      std::vector<double> peaks;
-      for (const BranchPoint& point : of_type(branch, PointType::peak)) peaks.push_back(point.parameters(0));
-      REQUIRE(peaks.size() == etas.size());
-      for (std::size_t i = 0; i < peaks.size(); ++i) CHECK_THAT(etas[i], WithinRel(peaks[i], 1e-9));
-    }
+    REQUIRE(check_peaks_met(input.branches.front(), curves) == 3);
   }
 }
 
@@ -222,16 +206,10 @@ TEST_CASE("Curves of peaks and folds pass those of responses in which the parts 
   const Case input =
       case_texts::read_text(text + "from = 0.2\nto = 4\n[continuation]\nstop_at = [0.3, 0.4, 2.0]\n",
                             {"system.harmonics=3", "system.preload=0.5"});
-  std::map<double, std::vector<double>> passed;
+  const std::vector<TracedBranch> curves = trace(input.branches.front());
+  std::map<double, std::vector<double>> passed = etas_met(curves);
   std::size_t cusps = 0;
-  for (const TracedBranch& curve : trace(input.branches.front())) {
-    CHECK(curve.branch.complete());
-    cusps += of_type(curve.branch, PointType::cusp).size();
-    for (const BranchPoint& point : of_type(curve.branch, PointType::user)) {
-      const BasePoint at = curve.curve->split(point.unknowns, point.parameters, point.regime);
-      passed[at.parameters(1)].push_back(at.parameters(0));
-    }
-  }
+  for (const TracedBranch& curve : curves) cusps += of_type(curve.branch, PointType::cusp).size();
   CHECK(cusps == (type == "fold" ? 1 : 0));
   for (const double preload : {0.3, 0.4, 2.0}) {
     CaseBranch response = seed_branch(input.branches.front());

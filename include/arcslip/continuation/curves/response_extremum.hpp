@@ -47,7 +47,7 @@ class ResponseExtremum {
   [[nodiscard]] std::optional<double> settle(double farthest);
   double slope(double way);
   bool is_corner(double way);
-  std::optional<End> beside_jump(End near, End far);
+  std::optional<End> beside_jump(End from, End to);
 
   const Problem& base_;
   Index active_;
