@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <random>
 
 #include "arcslip/continuation/problem/evaluation.hpp"
@@ -17,8 +18,9 @@ constexpr double quick_step =
     1e-6;  // of the problem's scale; rounding is 1e-10, curvature 1e-12 of the terms
 constexpr double suspicious = 1e-6;
 constexpr double wrong = 1e-5;
-constexpr double unseen = 1e-13;  // of a value, along the scale: its rounding, which no step tells from it
 constexpr std::array<double, 5> steps = {1e-5, 1e-6, 1e-7, 1e-8, 1e-9};  // down to where rounding is 1e-7
+// Of a value, along the scale: what the widest step changes it by is its rounding.
+constexpr double unseen = std::numeric_limits<double>::epsilon() / steps.front();
 
 /// A direction of (u, p).
 struct Direction {
