@@ -6,6 +6,11 @@
 #include <stdexcept>
 
 namespace arcslip::continuation {
+namespace {
+
+constexpr double unlike = 1e-3;  // rad: by how much more a branch turns at a corner than on a short step
+
+}  // namespace
 
 Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step,
                  bool pairs, const Tolerances& tolerances, bool rough_extrema, bool may_bend)
@@ -146,25 +151,41 @@ Correction Stepper::enter(const Regime& regime) {
   return result;
 }
 
-// The sign of the determinant that t closes is the same on all pieces of a branch, if t points forward. Where
+bool Stepper::straighten() {
+  if (predictor_.bends().derivatives[0].isZero(0)) return false;
+  predictor_.forget();
+  return true;
+}
+
+// The sign of the determinant that t closes is the same on all pieces of a branch, if t points forward: where
 // it tells that the piece ahead is passed against here's direction, it is met behind the corner.
-bool Stepper::turn_back() {
+bool Stepper::pass_corner() {
   aside_ = step_.here;
   for (double ahead = 1e-11; ahead < 1e-6; ahead *= 2) {
     corrector_.displace(step_.here, ahead * step_.here.tangent, aside_);
-    if (corrector_.linearise(aside_, step_.here.tangent) != Correction::converged) return false;
-    if (corrector_.orientation() == step_.here.orientation) continue;
-    step_.normal = -corrector_.direction().normalized();
-    corrector_.displace(aside_, 2 * ahead * step_.normal, step_.there);
-    if (corrector_.correct(step_.there, aside_, step_.normal, 2 * ahead, false) != Correction::converged ||
-        corrector_.orientation() != step_.here.orientation ||
-        !(corrector_.direction().dot(step_.here.tangent) < 0))
+    if (corrector_.linearise(aside_, step_.here.tangent) != Correction::converged) continue;
+    const double way = corrector_.orientation() == step_.here.orientation ? 1 : -1;
+    step_.normal = way * corrector_.direction().normalized();
+    if (step_.normal.dot(step_.here.tangent) > std::cos(unlike) ||
+        !finds(aside_, step_.normal, 2 * ahead, step_.here.orientation))
       continue;
     step_.here = step_.there;
     begin_piece(aside_);
     return true;
   }
   return false;
+}
+
+/// Whether the branch is met this far from a point along a direction, in which it runs there forwards.
+bool Stepper::finds(const CurvePoint& from, const Vector& along, double distance, double orientation) {
+  constexpr double solved = 1e-3;  // of the way: at the corner itself there is nothing to see
+  constexpr double alike = 0.9;
+  step_.there = from;
+  work_ = distance * along;
+  corrector_.displace(from, work_, step_.there);
+  return corrector_.correct(step_.there, from, along, distance, true) == Correction::converged &&
+         step_.there.residual < solved * distance * corrector_.residual_size() &&
+         corrector_.orientation() == orientation && corrector_.direction().normalized().dot(along) > alike;
 }
 
 bool Stepper::look_ahead(double way) {
@@ -288,12 +309,33 @@ bool Stepper::finish(bool lands, double value) {
 /// Whether the step has no branch points but those that are found in it, be they at a corner.
 bool Stepper::knows_crossings(bool corner) {
   const bool keeps_way = step_.there.orientation == step_.here.orientation;
+  if (!keeps_way && turns_at_once() && !goes_on()) {
+    signals_.turn = limits_.turn_limit * 4;
+    return false;
+  }
   if (is_regular() ? keeps_way : !crossings_.may_find(pairs_) || crossings_.search(may_bend_)) return true;
   const bool may_leap = may_bend_ && !keeps_way && !corner && !is_regular();
   if (step_.is_tiny(step_.distance) && (keeps_way || (may_leap && crossings_.jumps())))
     return true;  // a corner
   signals_.turn = limits_.turn_limit * 4;
   return false;
+}
+
+/// Whether a step so short that on it a curve is straight ends in another direction.
+bool Stepper::turns_at_once() const {
+  return step_.is_tiny(step_.distance) && step_.there.tangent.dot(step_.here.tangent) < std::cos(unlike);
+}
+
+/// Whether the branch goes on from the end of a short step in the direction that it has there. At a corner
+/// that is also met but for rounding where what is behind it leads backwards.
+bool Stepper::goes_on() {
+  constexpr double farthest = 100;
+  const CurvePoint from = step_.there;
+  bool met = false;
+  for (double ahead = 4 * step_.chord.norm(); !met && ahead < farthest * step_.tiny; ahead *= 4)
+    met = finds(from, from.tangent, ahead, from.orientation);
+  step_.there = from;
+  return met && corrector_.linearise(step_.there, step_.normal) == Correction::converged;
 }
 
 /// Whether the end lies on a branch point but for rounding, from where no step tells where the branch goes

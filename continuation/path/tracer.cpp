@@ -33,8 +33,6 @@ bool looks_for_pairs(const Problem& problem, const TraceOptions& options) {
 /// Whether F is continuous at corners within a regime: conditions on special points are made of derivatives.
 bool may_bend(const Problem& problem) { return dynamic_cast<const ExtendedProblem*>(&problem) == nullptr; }
 
-constexpr double first_step = 1e-6;  // of the largest: where a corner may have made the last one shorter
-
 /// Ends a branch in the midst of a step.
 struct Halt {
   Stop reason;
@@ -170,7 +168,11 @@ void Tracer::step() {
     ++corrector_.work().rejected_steps;
     if (stopped_) return;
     if (length() >= options_.min_step) continue;
-    if (options_.turns_at_corners && turn_back()) return;
+    if (stepper_.straighten()) {
+      state_.distance = careful();
+      continue;
+    }
+    if (options_.turns_at_corners && pass_corner()) return;
     const Correction last = stepper_.last_correction();
     return stop(last == Correction::cannot_evaluate ? Stop::no_value : Stop::min_step,
                 fmt::format("no step of at least min_step = {:g} is acceptable from {}: {}",
@@ -326,16 +328,16 @@ void Tracer::cross(int border, bool several) {
 }
 
 /// Corners within a regime that no step can pass.
-bool Tracer::turn_back() {
+bool Tracer::pass_corner() {
   storing_ = true;
   const Signs before = state_.signs;
   const std::size_t stored = branch_.points.size();
-  if (!stepper_.turn_back()) return false;
+  if (!stepper_.pass_corner()) return false;
   const std::vector<double> sizes = watch_.sizes();
   watch_.begin(stepper_.here());
   corner_events(before, sizes);
   if (branch_.points.size() == stored) store(PointType::regular);
-  state_.distance = first_step * options_.max_step / stepper_.slope_length(state_.hold);
+  state_.distance = careful();
   return true;
 }
 

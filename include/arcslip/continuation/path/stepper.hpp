@@ -81,9 +81,12 @@ class Stepper {
   /// into it.
   Correction enter(const Regime& regime);
 
-  /// Goes past a corner within the regime, just ahead, at which the branch turns by more than a right angle.
+  /// Forgets how the branch bends, which behind a corner tells nothing; false if nothing is known.
+  [[nodiscard]] bool straighten();
+
+  /// Goes past a corner within the regime, just ahead, that no step passes, whatever the angle.
   /// False, and still at `here`, if there is none.
-  [[nodiscard]] bool turn_back();
+  [[nodiscard]] bool pass_corner();
 
   /// Whether in this regime there are neither folds nor branch points.
   bool is_regular() const { return problem_.is_regular(step_.here.regime); }
@@ -126,6 +129,9 @@ class Stepper {
   void predict();
   [[nodiscard]] bool finish(bool lands, double value);
   [[nodiscard]] bool knows_crossings(bool corner);
+  bool turns_at_once() const;
+  bool goes_on();
+  bool finds(const CurvePoint& from, const Vector& along, double distance, double orientation);
   bool ends_singular() const;
 
   const Problem& problem_;

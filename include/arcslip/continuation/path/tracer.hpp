@@ -74,7 +74,7 @@ class Tracer {
   void store_turn();
   void cross(int border, bool several);
   bool meets(const CurvePoint& point) const;
-  bool turn_back();
+  bool pass_corner();
   bool on_several_borders() const;
   Correction leave(int border, bool several);
   void corner_events(const Signs& before, const std::vector<double>& sizes);
@@ -83,6 +83,8 @@ class Tracer {
   double value() const { return stepper_.here().parameters(parameter_); }
   double parameter_scale() const { return stepper_.here().scale(stepper_.here().scale.size() - 1); }
   double start_scale() const { return state_.start.scale(state_.start.scale.size() - 1); }
+  /// Of a step where a corner may have made the last one shorter.
+  double careful() const { return 1e-6 * options_.max_step / stepper_.slope_length(state_.hold); }
   double length() const { return state_.distance * stepper_.slope_length(state_.hold); }
   void use(Hold hold);
   void store(PointType type, const std::string& label = {}, const Vector& arrival = {});
