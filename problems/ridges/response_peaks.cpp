@@ -17,8 +17,6 @@ using continuation::BranchPoint;
 using continuation::Guess;
 using continuation::PointType;
 
-Guess guess_at(const BranchPoint& point) { return {point.unknowns, point.parameters, point.regime, {}}; }
-
 bool same_place(const BranchPoint& a, const BranchPoint& b) {
   return a.parameters == b.parameters && a.unknowns == b.unknowns;
 }
@@ -117,82 +115,21 @@ ResponsePeaks::ResponsePeaks(PeakedResponse response)
   response_.options.stop_after.clear();
   response_.options.extrema_of = {response_.objective};
   response_.options.branch_point_pairs = false;  // a response under a given load has no others beside it
-  starts_.push_back(response_.start);
-}
-
-/// The solution at the first value of `along`, traced over `across` from the nearest one that is known.
-const Guess& ResponsePeaks::start(double across) {
-  const auto value = [&](const Guess& guess) { return guess.parameters(across_); };
-  auto place = std::lower_bound(starts_.begin(), starts_.end(), across,
-                                [&](const Guess& guess, double wanted) { return value(guess) < wanted; });
-  if (place != starts_.end() && value(*place) == across) return *place;
-  auto near = place;
-  if (place == starts_.end() ||
-      (place != starts_.begin() && across / value(*(place - 1)) < value(*place) / across))
-    near = place - 1;
-  constexpr double beside = 1e-6;  // too near for steps between the two
-  constexpr double same = 1e-3;    // of a solution: what hardly depends on it is the same one
-  const bool is_beside = std::abs(across / value(*near) - 1) < beside;
-  if (is_beside || response_.is_polished) {
-    Guess guess = *near;
-    guess.parameters(across_) = across;
-    const continuation::Solution solution = continuation::solve(*response_.problem, guess);
-    guess.unknowns = solution.unknowns;
-    const bool is_same =
-        is_beside || (guess.unknowns - near->unknowns).norm() <= same * near->unknowns.norm();
-    if (solution.outcome == continuation::Correction::converged && is_same && is_inside(guess))
-      return *starts_.insert(place, std::move(guess));
-  }
-  continuation::TraceOptions options = response_.options;
-  options.parameter = response_.across;
-  options.from = value(*near);
-  options.to = across;
-  options.extrema_of.clear();
-  const Branch way = trace(*response_.problem, *near, options);
-  if (way.stop == continuation::Stop::time_limit || way.stop == continuation::Stop::interrupted)
-    throw continuation::Unfinished(way.stop, way.explanation);
-  if (!way.complete() || way.points.back().parameters(across_) != across) {
-    throw std::runtime_error(fmt::format("at {} = {:.10g} no way to {} = {:.10g}: {}", response_.along,
-                                         response_.from, response_.across, across, way.explanation));
-  }
-  return *starts_.insert(place, guess_at(way.points.back()));
-}
-
-Branch ResponsePeaks::trace_over(double across, double longest, bool is_rough) {
-  continuation::TraceOptions options = response_.options;
-  options.parameter = response_.along;
-  options.from = response_.from;
-  options.to = response_.to;
-  options.max_step = longest;
-  options.rough_extrema = is_rough;
-  ++traced_;
-  return trace(*response_.problem, start(across), options);
-}
-
-Branch ResponsePeaks::response_at(double across) { return traced_at(across, false); }
-
-Branch ResponsePeaks::traced_at(double across, bool is_rough) {
-  Branch branch = trace_over(across, response_.options.max_step, is_rough);
-  if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
-    throw continuation::Unfinished(branch.stop, branch.explanation);
-  constexpr double finer = 0.2;  // of the longest step: other points, so that a chance is not met again
-  if (!branch.complete()) branch = trace_over(across, finer * response_.options.max_step, is_rough);
-  if (!branch.complete() || branch.points.back().parameters(along_) != response_.to) {
-    const bool asks = response_.reason_of_end && !branch.points.empty();
-    const std::string why =
-        asks ? response_.reason_of_end(branch.points.back().parameters(along_)) : std::string();
-    throw std::runtime_error(fmt::format("the response at {} = {:.10g} could not be traced: {}{}{}",
-                                         response_.across, across, branch.explanation,
-                                         why.empty() ? "" : ": ", why));
-  }
-  return branch;
+  first_ = {response_.from, {response_.start}};
+  last_ = {response_.to, {}};
 }
 
 std::vector<ResponsePeak> ResponsePeaks::at(double across) {
-  if (!response_.is_polished) return peaks_of(traced_at(across, false));
-  if (std::optional<std::vector<ResponsePeak>> peaks = polished(traced_at(across, true)))
-    return *std::move(peaks);
-  return peaks_of(traced_at(across, false));
+  if (response_.is_polished) {
+    if (std::optional<std::vector<ResponsePeak>> peaks = peaks_of(traced_at(across, true), true))
+      return *std::move(peaks);
+  }
+  const Branch branch = traced_at(across, false);
+  std::vector<ResponsePeak> peaks = *peaks_of(branch, false);
+  if (!peaks.empty()) return peaks;
+  const ResponsePeak first = edge(guess_at(branch.points.front())).peak;  // flat but for rounding
+  const ResponsePeak last = edge(guess_at(branch.points.back())).peak;
+  return {first.log_height > last.log_height ? first : last};
 }
 
 /// Whether the height rises from a point to a peak as to one that is level there, with no other between.
@@ -209,15 +146,21 @@ bool ResponsePeaks::rises_to(const BranchPoint& point, const ResponsePeak& peak)
   return std::abs(risen - expected) <= unlike * std::abs(risen) + nothing;
 }
 
-/// The peaks next to those that were located roughly, with the ends; none where one is not found there.
-std::optional<std::vector<ResponsePeak>> ResponsePeaks::polished(const Branch& branch) {
+/// Those on the points of a branch; or next to these, if they were located roughly, and none where there are
+/// none or one is not found there.
+std::optional<std::vector<ResponsePeak>> ResponsePeaks::peaks_of(const Branch& branch, bool is_rough) {
   std::vector<ResponsePeak> peaks;
   const auto& points = branch.points;
-  const Edge first = edge(guess_at(points.front()));
-  const Edge last = edge(guess_at(points.back()));
-  if (first.slope < 0) peaks.push_back(first.peak);
+  const auto add_end = [&](const BranchPoint& end) {
+    if (const auto peak = rising_edge(guess_at(end))) peaks.push_back(*peak);
+  };
+  add_end(points.front());
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
     if (points[i].type != PointType::peak) continue;
+    if (!is_rough) {
+      add_peak(branch, i, peaks);
+      continue;
+    }
     const std::optional<ResponsePeak> found = next_to(guess_at(points[i]), ResponsePeakSite::smooth);
     const auto leads_there = [&](const BranchPoint& point) { return rises_to(point, *found); };
     if (!found || !std::all_of(points.begin() + static_cast<std::ptrdiff_t>(i) - 1,
@@ -225,23 +168,8 @@ std::optional<std::vector<ResponsePeak>> ResponsePeaks::polished(const Branch& b
       return std::nullopt;
     peaks.push_back(*found);
   }
-  if (last.slope > 0) peaks.push_back(last.peak);
-  if (peaks.empty()) return std::nullopt;
-  return peaks;
-}
-
-/// Those of a branch on whose points they lie.
-std::vector<ResponsePeak> ResponsePeaks::peaks_of(const Branch& branch) {
-  const Edge first = edge(guess_at(branch.points.front()));
-  const Edge last = edge(guess_at(branch.points.back()));
-  std::vector<ResponsePeak> peaks;
-  if (first.slope < 0) peaks.push_back(first.peak);
-  for (std::size_t i = 1; i + 1 < branch.points.size(); ++i) {
-    if (branch.points[i].type == PointType::peak) add_peak(branch, i, peaks);
-  }
-  if (last.slope > 0) peaks.push_back(last.peak);
-  if (peaks.empty())  // flat but for rounding
-    peaks.push_back((first.peak.log_height > last.peak.log_height ? first : last).peak);
+  add_end(points.back());
+  if (is_rough && peaks.empty()) return std::nullopt;
   return peaks;
 }
 
@@ -250,6 +178,13 @@ ResponsePeaks::Edge ResponsePeaks::edge(const Guess& at) {
   return {{ResponsePeakSite::edge, at, at.parameters(along_), slopes.log_height,
            slopes.across * at.parameters(across_)},
           slopes.along};
+}
+
+/// That end, if the height rises towards it.
+std::optional<ResponsePeak> ResponsePeaks::rising_edge(const Guess& at) {
+  const Edge found = edge(at);
+  const bool is_first = at.parameters(along_) == response_.from;
+  return found.slope * (is_first ? -1 : 1) > 0 ? std::optional(found.peak) : std::nullopt;
 }
 
 bool ResponsePeaks::is_inside(const Guess& at) const {
@@ -261,9 +196,7 @@ std::optional<ResponsePeak> ResponsePeaks::edge_next_to(const Guess& guess) {
   const continuation::Solution solution = continuation::solve(*response_.problem, guess);
   const Guess at{solution.unknowns, guess.parameters, guess.regime, {}};
   if (solution.outcome != continuation::Correction::converged || !is_inside(at)) return std::nullopt;
-  const Edge found = edge(at);
-  const bool is_first = guess.parameters(along_) == response_.from;
-  return found.slope * (is_first ? -1 : 1) > 0 ? std::optional(found.peak) : std::nullopt;
+  return rising_edge(at);
 }
 
 /// Where the height is level, by secants along the branch, with the branch's direction there.

@@ -86,11 +86,20 @@ class ResponsePeaks {
  private:
   class Slopes;
 
-  const continuation::Guess& start(double across);
-  continuation::Branch trace_over(double across, double longest, bool is_rough);
+  /// Where a response begins or ends, with the solutions that are known there, by rising values of `across`.
+  struct End {
+    double place;  ///< of `along`
+    std::vector<continuation::Guess> known;
+  };
+  static continuation::Guess guess_at(const continuation::BranchPoint& point);
+  std::vector<continuation::Guess>::iterator found_at(End& end, double across) const;
+  const continuation::Guess* start(End& end, double across, std::string& why_not);
+  continuation::Branch trace_from(End& end, double across, bool is_rough);
+  continuation::Branch trace_from(End& end, double across, bool is_rough, double longest);
   continuation::Branch traced_at(double across, bool is_rough);
-  std::vector<ResponsePeak> peaks_of(const continuation::Branch& branch);
-  std::optional<std::vector<ResponsePeak>> polished(const continuation::Branch& branch);
+  void remember(End& end, const continuation::BranchPoint& point) const;
+  bool knows_last(double across);
+  std::optional<std::vector<ResponsePeak>> peaks_of(const continuation::Branch& branch, bool is_rough);
   void add_peak(const continuation::Branch& branch, std::size_t i, std::vector<ResponsePeak>& peaks);
   /// An end of a branch, which is a peak where the height rises towards it.
   struct Edge {
@@ -98,6 +107,7 @@ class ResponsePeaks {
     double slope;  // of ln height
   };
   Edge edge(const continuation::Guess& at);
+  std::optional<ResponsePeak> rising_edge(const continuation::Guess& at);
   std::optional<ResponsePeak> edge_next_to(const continuation::Guess& guess);
   std::optional<continuation::Guess> level_next_to(const continuation::Guess& guess, Vector& direction) const;
   bool is_inside(const continuation::Guess& at) const;
@@ -111,7 +121,8 @@ class ResponsePeaks {
   Index across_;
   Index objective_;
   std::shared_ptr<Slopes> slopes_;
-  std::vector<continuation::Guess> starts_;  ///< solutions at `from`, by rising values of `across`
+  End first_{};  ///< at `from`
+  End last_{};   ///< at `to`
   long traced_ = 0;
 };
 
