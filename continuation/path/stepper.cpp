@@ -330,6 +330,7 @@ bool Stepper::turns_at_once() const {
 /// that is also met but for rounding where what is behind it leads backwards.
 bool Stepper::goes_on() {
   constexpr double farthest = 100;
+  if (step_.there.tangent.dot(step_.here.tangent) < 0) return false;  // it came back, at a held parameter
   const CurvePoint from = step_.there;
   bool met = false;
   for (double ahead = 4 * step_.chord.norm(); !met && ahead < farthest * step_.tiny; ahead *= 4)
