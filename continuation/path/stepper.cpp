@@ -309,14 +309,12 @@ bool Stepper::finish(bool lands, double value) {
 /// Whether the step has no branch points but those that are found in it, be they at a corner.
 bool Stepper::knows_crossings(bool corner) {
   const bool keeps_way = step_.there.orientation == step_.here.orientation;
-  if (!keeps_way && turns_at_once() && !goes_on()) {
-    signals_.turn = limits_.turn_limit * 4;
-    return false;
+  if (keeps_way || !turns_at_once() || goes_on()) {
+    if (is_regular() ? keeps_way : !crossings_.may_find(pairs_) || crossings_.search(may_bend_)) return true;
+    const bool may_leap = may_bend_ && !keeps_way && !corner && !is_regular();
+    if (step_.is_tiny(step_.distance) && (keeps_way || (may_leap && crossings_.jumps())))
+      return true;  // a corner
   }
-  if (is_regular() ? keeps_way : !crossings_.may_find(pairs_) || crossings_.search(may_bend_)) return true;
-  const bool may_leap = may_bend_ && !keeps_way && !corner && !is_regular();
-  if (step_.is_tiny(step_.distance) && (keeps_way || (may_leap && crossings_.jumps())))
-    return true;  // a corner
   signals_.turn = limits_.turn_limit * 4;
   return false;
 }

@@ -11,8 +11,8 @@
 #include "case_texts.hpp"
 #include "cases/design_study.hpp"
 #include "catch.hpp"
-#include "lifting_sectors.hpp"
 #include "random_systems.hpp"
+#include "ring_of_rows.hpp"
 #include "small_structures.hpp"
 #include "temporary_folder.hpp"
 #include "traced_height.hpp"
@@ -93,11 +93,13 @@ TEST_CASE("A best preload is found although low preloads have responses that com
   // At low preloads and low eta several motions are in balance; the one that leads on is met from the other
   // edge.
   const TemporaryFolder folder;
-  const std::string text = lifting_sectors(
-      folder, {{1.88, 3.98, 6.76}, {3.51, 3.71, 7.23}, {4.23, 2.83, 4.79}},
-      {{0.881, 0.87, 0.944}, {0.766, 1.37, 5.79}, {0.0839, 0.149, 0.0987}},
+  write_row(folder, "base", {1.88, 3.98, 6.76}, {3.51, 3.71, 7.23}, {4.23, 2.83, 4.79});
+  write_row(folder, "damper", {0.881, 0.87, 0.944}, {0.766, 1.37, 5.79}, {0.0839, 0.149, 0.0987});
+  const std::string text = ring_of_rows(
+      "[1, 2]",
       "wave_number = 1\ncontact_stiffness = 0.647\npreload = 0.3\ndamping = { base = 0.00486, damper = "
-      "0.0033 }\n",
+      "0.0033 }\n"
+      "[[element]]\nkind = \"friction\"\nat = \"contact\"\nnormal = 2\n"
       "tangential_stiffness = 1.25\nnormal_stiffness = 2.09\nmu = 0.348\nnormal_per_preload = 0.647\n");
   const Studied studied(folder,
                         text + "[study]\nparameter = \"P\"\nfrom = 0.03\nto = 10.0\neta = [0.1, 0.6]\n");
@@ -109,12 +111,8 @@ TEST_CASE("A best preload is found although low preloads have responses that com
     CAPTURE(preload);
     SystemParameters system = design.system;
     system.preload = preload;
-    const HarmonicResponse problem(build_harmonic_system(system));
-    continuation::TraceOptions options;
-    options.parameter = "eta";
-    options.from = design.range.eta_low;
-    options.to = design.range.eta_high;
-    const auto branch = trace(problem, problem.guess(options.from, preload), options);
+    const auto branch =
+        traced_response(HarmonicResponse(build_harmonic_system(system)), design.range, preload);
     came_back += static_cast<int>(branch.stop == continuation::Stop::left_range);
     CHECK(highest_response(design.system, preload, backwards) >= studied.best().Y * (1 - 1e-9));
   }

@@ -10,7 +10,7 @@
 
 #include "arcslip/cases/runs.hpp"
 #include "catch.hpp"
-#include "lifting_sectors.hpp"
+#include "ring_of_rows.hpp"
 #include "temporary_folder.hpp"
 
 using namespace arcslip;
@@ -39,11 +39,13 @@ std::vector<std::pair<PointType, double>> special_points(const CaseBranch& reque
 TEST_CASE("A response with sharp corners within a regime is whole, both ways, at whatever steps",
           "[cases][even]") {
   const TemporaryFolder folder;
-  const std::string text = lifting_sectors(
-      folder, {{1.48, 2.52, 1.45}, {3.68, 6.1, 5.71}, {6.77, 4.66, 7.83}},
-      {{1.75, 0.672, 0.737}, {1.53, 1.31, 1.6}, {0.13, 0.251, 0.0674}},
+  write_row(folder, "base", {1.48, 2.52, 1.45}, {3.68, 6.1, 5.71}, {6.77, 4.66, 7.83});
+  write_row(folder, "damper", {1.75, 0.672, 0.737}, {1.53, 1.31, 1.6}, {0.13, 0.251, 0.0674});
+  const std::string text = ring_of_rows(
+      "[1, 2]",
       "wave_number = 2\ncontact_stiffness = 0.907\npreload = 1.19\ndamping = { base = 0.00385, damper = "
-      "0.0152 }\n",
+      "0.0152 }\n"
+      "[[element]]\nkind = \"friction\"\nat = \"contact\"\nnormal = 2\n"
       "tangential_stiffness = 1.36\nnormal_stiffness = 1.31\nmu = 0.168\nnormal_per_preload = 0.757\n");
   std::vector<std::pair<PointType, double>> first;
   for (const auto& [from, to] : {std::pair{0.1, 0.6}, std::pair{0.6, 0.1}}) {

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "arcslip/continuation/path/trace.hpp"
 #include "branches.hpp"
@@ -101,9 +103,9 @@ int check_broken_lines(int count, double nearest, double farthest) {
     const BrokenLine line(random, distance);
     constexpr double steep = 0.05;  // a branch over p is to have one
     const double rate = line.before()(2);
+    const double between = line.behind(1)(2);
     const double last = line.behind(2)(2);
-    if (!line.is_simple() || std::abs(rate) < steep || std::abs(line.behind(1)(2)) < steep ||
-        std::abs(last) < steep)
+    if (!line.is_simple() || std::abs(rate) < steep || std::abs(between) < steep || std::abs(last) < steep)
       continue;
     TraceOptions options;
     options.parameter = "p";
@@ -122,7 +124,6 @@ int check_broken_lines(int count, double nearest, double farthest) {
     REQUIRE(of_type(branch, PointType::branch_point).empty());
     const std::size_t folds =
         of_type(branch, PointType::fold).size() + of_type(branch, PointType::corner_fold).size();
-    const double between = line.behind(1)(2);
     const std::size_t turns =
         static_cast<std::size_t>(rate * between > 0) + static_cast<std::size_t>(between * last < 0);
     if (options.max_step < 0.5 * distance)

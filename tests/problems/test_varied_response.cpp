@@ -40,8 +40,8 @@ SystemParameters some_rods(const std::string& varied) {
 /// A sector with three contacts, each with numbers of its own.
 SystemParameters three_contacts() {
   const testing::TemporaryFolder folder;
-  testing::composition::write_row(folder, "base", {3, 2.5, 2}, {4, 3, 5}, {5, 4, 6});
-  testing::composition::write_row(folder, "damper", {1, 0.8, 0.9}, {2, 1.5, 2.5}, {0.1, 0.2, 0.1});
+  testing::write_row(folder, "base", {3, 2.5, 2}, {4, 3, 5}, {5, 4, 6});
+  testing::write_row(folder, "damper", {1, 0.8, 0.9}, {2, 1.5, 2.5}, {0.1, 0.2, 0.1});
   std::string text =
       testing::composition::sector("[1, 2, 3]", "limit_per_preload = [1.0, 0.8, 1.3]\nharmonics = 3") +
       "[branch]\nparameter = \"eta\"\nfrom = 0.1\nto = 0.6\n";

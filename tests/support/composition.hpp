@@ -14,6 +14,7 @@
 #include "catch.hpp"
 #include "places.hpp"
 #include "program.hpp"
+#include "ring_of_rows.hpp"
 
 namespace arcslip::testing::composition {
 
@@ -64,18 +65,10 @@ inline std::string rods(const std::string& more,
 }
 
 inline std::string sector(const std::string& contacts, const std::string& more) {
-  const auto part = [&](const std::string& name) {
-    return fmt::format(
-        "[system.{0}]\nmass = \"{0}_m.mtx\"\nstiffness = \"{0}_k.mtx\"\nleft = [1]\nright = [4]\n"
-        "contact = {1}\ndamping_kind = \"viscous\"\nreference_frequency = 0.3\n",
-        name, contacts);
-  };
-  return fmt::format(
-             "[system]\nmodel = \"sector\"\nsectors = 12\nwave_number = 1\ncontact_stiffness = 2.0\npreload "
-             "= 0.3\n"
-             "force = 1.0\ndamping = {{ base = 1e-2, damper = 2e-2 }}\nreduction_window = [0.05, 3.0]\n{}\n",
-             more) +
-         part("base") + "load = { dof = [2], value = [1.0] }\n" + part("damper");
+  return ring_of_rows(contacts,
+                      "wave_number = 1\ncontact_stiffness = 2.0\npreload = 0.3\n"
+                      "damping = { base = 1e-2, damper = 2e-2 }\n" +
+                          more + "\n");
 }
 
 /// That the base meets in its motion.
@@ -158,22 +151,6 @@ inline std::map<std::string, std::vector<std::string>> promised() {
     lines[name] = std::move(cells);
   }
   return lines;
-}
-
-/// The matrices of a row of three masses and springs between neighbours and to ground.
-inline void write_row(const TemporaryFolder& folder, const std::string& name, const std::vector<double>& mass,
-                      const std::vector<double>& springs, const std::vector<double>& ground) {
-  const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n4 4 ";
-  std::string m = head + "3\n";
-  std::string k = head + "7\n";
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (i < 3) m += fmt::format("{0} {0} {1}\n", i + 1, mass[i]);
-    const double own = (i < 3 ? ground[i] + springs[i] : 0) + (i > 0 ? springs[i - 1] : 0);
-    k += fmt::format("{0} {0} {1}\n", i + 1, own);
-    if (i < 3) k += fmt::format("{} {} {}\n", i + 2, i + 1, -springs[i]);
-  }
-  folder.write(name + "_m.mtx", m);
-  folder.write(name + "_k.mtx", k);
 }
 
 /// One kind of system with all that is asked of it.

@@ -10,15 +10,21 @@
 
 namespace arcslip::testing {
 
-/// The highest amplitude in the window, from a response that is traced for itself.
-inline double traced_height(const problems::HarmonicResponse& problem, const problems::PreloadRange& range,
-                            double preload) {
+/// A response over the window that is traced for itself.
+inline continuation::Branch traced_response(const problems::HarmonicResponse& problem,
+                                            const problems::PreloadRange& range, double preload) {
   continuation::TraceOptions options;
   options.parameter = "eta";
   options.from = range.eta_low;
   options.to = range.eta_high;
   options.extrema_of = {"Y"};
-  const continuation::Branch branch = trace(problem, problem.guess(range.eta_low, preload), options);
+  return trace(problem, problem.guess(range.eta_low, preload), options);
+}
+
+/// Its highest amplitude.
+inline double traced_height(const problems::HarmonicResponse& problem, const problems::PreloadRange& range,
+                            double preload) {
+  const continuation::Branch branch = traced_response(problem, range, preload);
   REQUIRE(branch.complete());
   double highest = 0;
   Vector values;
