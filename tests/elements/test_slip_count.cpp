@@ -226,3 +226,11 @@ TEST_CASE("No further slip begins where parts that come to touch no longer stick
     CHECK(changes > 0);
   }
 }
+
+TEST_CASE("At the border of slip, where rounding hides the first, no further slip begins", "[slips]") {
+  std::array<SlipCount, 2> first;
+  for (SlipCount& one : first) one.slip(1e-9);
+  const FurtherSlips behind = FurtherSlips::of(first, 1, false);
+  CHECK(FurtherSlips::at_border().functions == behind.functions);
+  CHECK(FurtherSlips::at_border().piece == behind.piece);
+}

@@ -65,6 +65,10 @@ struct FurtherSlips {
     return {{slips[0].value(unit, with_ways), slips[1].value(unit, with_ways)},
             slips[0].pieces() + slips[1].pieces()};
   }
+
+  /// Where nothing slips and the parts do not come apart: at the border of slip but for rounding, at which
+  /// one slip each way begins.
+  static FurtherSlips at_border() { return {{-1, -1}, 2}; }
 };
 
 /// What may begin or end within a period.

@@ -225,6 +225,8 @@ double CircleCourse::slip(double begin, double end, bool lifts, double phase) {
 }
 
 FurtherSlips CircleCourse::further_slips() const {
+  const auto is_slip = [](const Arc& arc) { return arc.phase == Phase::slip; };
+  if (!begins_apart_ && std::none_of(arcs_.begin(), arcs_.end(), is_slip)) return FurtherSlips::at_border();
   const bool with_ways = begins_apart_ || slips_[0].count() + slips_[1].count() > 2;
   return FurtherSlips::of(slips_, motion_.size(), with_ways);
 }

@@ -291,6 +291,8 @@ FurtherSlips PressedArcs::further_slips() const {
                                                ? std::abs(behind.offset - before.offset)
                                                : std::numeric_limits<double>::infinity());
   }
+  const auto is_slip = [](const Arc& arc) { return arc.phase == Phase::slip; };
+  if (!comes_apart && std::none_of(arcs_.begin(), arcs_.end(), is_slip)) return FurtherSlips::at_border();
   const bool with_ways = comes_apart || counts[0].count() + counts[1].count() > 2;
   const double unit = std::abs(highest_high().high) + std::abs(lowest_low().low);
   return FurtherSlips::of(counts, unit, with_ways);
