@@ -95,7 +95,7 @@ void HarmonicCycle::add_cycles(const HarmonicSystem& damped, const JoinedMode& m
   options.go_on = limits.go_on;
   const Vector begin = Eigen::Vector2d(first, preload_value);
   const Branch branch = trace(problem, problem.guess(mode.frequency, begin, limits), options);
-  if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
+  if (is_unfinished(branch.stop))
     throw continuation::Unfinished(branch.stop, "on the way to a limit cycle: " + branch.explanation);
   for (std::size_t k = 0; k + 1 < branch.points.size(); ++k) {
     const BranchPoint& a = branch.points[k];

@@ -81,13 +81,12 @@ std::optional<Guess> HarmonicResponse::reached(const continuation::Problem& path
   options.go_on = limits.go_on;
   const continuation::Branch branch = trace(path, start, options);
   const char* from = coordinates_.has_others() ? "a small force" : "a high preload";
-  if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
+  if (is_unfinished(branch.stop))
     throw continuation::Unfinished(branch.stop,
                                    fmt::format("on the way from {}: {}", from, branch.explanation));
   if (branch.stop == continuation::Stop::left_range) return std::nullopt;
   if (branch.stop != continuation::Stop::reached_end)
-    throw std::invalid_argument(
-        fmt::format("HarmonicResponse: no way from {}: {}", from, branch.explanation));
+    throw std::invalid_argument(fmt::format("no way from {}: {}", from, branch.explanation));
   const continuation::BranchPoint& end = branch.points.back();
   return Guess{end.unknowns, end.parameters, end.regime};
 }
@@ -105,8 +104,7 @@ Guess HarmonicResponse::guess(double eta_value, double preload_value,
 
 Guess HarmonicResponse::guess(const Vector& parameters, const continuation::TraceOptions& limits) const {
   Guess guess{Vector::Zero(size()), parameters, 0};
-  if (!has_value(parameters))
-    throw std::invalid_argument("HarmonicResponse: eta and the preload must be positive");
+  if (!has_value(parameters)) throw std::invalid_argument("eta and the preload must be positive");
   const double preload_value = parameters(preload);
   guess.regime = at_rest({}, parameters);
   Order order;
@@ -144,26 +142,48 @@ Guess HarmonicResponse::guess(const Vector& parameters, const continuation::Trac
     if (end && joins)
       end->regime = continuation::regime_at(*this, end->unknowns, end->parameters, end->regime);
     if (end) return *end;
-    throw std::invalid_argument("HarmonicResponse: the way from a high preload leads back there");
+    throw std::invalid_argument("the way from a high preload leads back there");
   }
+  const double part = 1 / std::max(1.0, holding);
+  std::string why = "the way from a small force leads back there";
+  double stuck = 0;  // share of the load that lets nothing slip
+  if (const auto end = under_load(guess, part, limits, stuck, why)) return *end;
+  Guess pressed = guess;  // by so much that all of it does not
+  pressed.parameters(preload) /= stuck;
+  std::string unheard;
+  if (const auto high = under_load(pressed, part, limits, stuck, unheard)) {
+    if (const auto end = reached(*this, *high, preload, preload_value, limits)) return *end;
+  }
+  throw std::invalid_argument(why);
+}
+
+/// The response under all of the load, by the way there from one that lets nothing slip, `stuck`: at most a
+/// thousandth of `part` of it. None where no way leads there, and why.
+std::optional<Guess> HarmonicResponse::under_load(const Guess& guess, double part,
+                                                  const continuation::TraceOptions& limits, double& stuck,
+                                                  std::string& why) const {
   // Near a resonance of what the elements make of it a branch may fold back below its first force.
   constexpr double least = 1e-12;
-  for (double small = 1e-3; small > least;
-       small *= 1e-3) {  // of the force under which the linear response does
+  for (double small = 1e-3; small > least; small *= 1e-3) {
     Guess start = guess;
-    const double share = take_small(start, small / std::max(1.0, holding));
-    start.parameters = Vector::Constant(1, share);
-    std::optional<Guess> end = reached(LoadPath(*this, parameters), start, 0, 1, limits);
-    if (!end) continue;
-    end->parameters = parameters;
-    return *end;
+    stuck = take_small(start, small * part);
+    start.parameters = Vector::Constant(1, stuck);
+    try {
+      std::optional<Guess> end = reached(LoadPath(*this, guess.parameters), start, 0, 1, limits);
+      if (!end) continue;
+      end->parameters = guess.parameters;
+      return end;
+    } catch (const std::invalid_argument& error) {
+      why = error.what();
+      return std::nullopt;
+    }
   }
-  throw std::invalid_argument("HarmonicResponse: the way from a small force leads back there");
+  return std::nullopt;
 }
 
 /// Makes the stuck response that under a share of the load, at most `share`, which it returns: one under
-/// which what the elements beside the contacts do to it is nothing or, where they act on the smallest
-/// motions, does so after steps of Newton's.
+/// which these do not slip, and what the elements beside the contacts do to it is nothing or, where they act
+/// on the smallest motions, does so after steps of Newton's.
 double HarmonicResponse::take_small(Guess& stuck, double share) const {
   constexpr double nothing = 1e-3;
   constexpr double smallest = 1e-100;
@@ -173,7 +193,8 @@ double HarmonicResponse::take_small(Guess& stuck, double share) const {
   Matrix jacobian(size(), size());
   const auto is_solved = [&](const Vector& u, double part, Matrix* by_unknowns) {
     return evaluate(u, stuck.parameters, stuck.regime, part, {&residual, by_unknowns}) &&
-           residual.lpNorm<Eigen::Infinity>() < nothing;
+           residual.lpNorm<Eigen::Infinity>() < nothing &&
+           continuation::regime_at(*this, u, stuck.parameters, stuck.regime) == stuck.regime;
   };
   const auto found = [&](Vector u, double part) {
     stuck.unknowns = std::move(u);
@@ -192,8 +213,8 @@ double HarmonicResponse::take_small(Guess& stuck, double share) const {
     if (is_solved(u, part, nullptr)) return found(std::move(u), part);
   }
   const std::string why = reason_of_end();
-  throw std::invalid_argument(why.empty() ? "HarmonicResponse: the response to a small force is not linear"
-                                          : "HarmonicResponse: no response to a small force: " + why);
+  throw std::invalid_argument(why.empty() ? "the response to a small force is not linear"
+                                          : "no response to a small force: " + why);
 }
 
 }  // namespace arcslip::problems

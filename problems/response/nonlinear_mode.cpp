@@ -103,7 +103,7 @@ continuation::Guess NonlinearMode::guess(double eta_value, const Vector& paramet
     }
     if (options.from == options.to) return *stuck;
     const continuation::Branch branch = trace(*this, *stuck, options);
-    if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
+    if (is_unfinished(branch.stop))
       throw continuation::Unfinished(branch.stop, "on the way from stick: " + branch.explanation);
     if (!branch.complete())
       throw std::invalid_argument("NonlinearMode: no way from stick: " + branch.explanation);

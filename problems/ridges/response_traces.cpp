@@ -56,8 +56,7 @@ const Guess* ResponsePeaks::start(End& end, double across, std::string& why_not)
   options.to = across;
   options.extrema_of.clear();
   const Branch way = trace(*response_.problem, *near, options);
-  if (way.stop == Stop::time_limit || way.stop == Stop::interrupted)
-    throw continuation::Unfinished(way.stop, way.explanation);
+  if (is_unfinished(way.stop)) throw continuation::Unfinished(way.stop, way.explanation);
   if (!way.complete() || way.points.back().parameters(across_) != across) {
     why_not =
         fmt::format("at {} = {:.10g} no way leads there: {}", response_.along, end.place, way.explanation);
@@ -88,8 +87,7 @@ Branch ResponsePeaks::trace_from(End& end, double across, bool is_rough, double 
   } else {
     branch.stop = Stop::no_start;
   }
-  if (branch.stop == Stop::time_limit || branch.stop == Stop::interrupted)
-    throw continuation::Unfinished(branch.stop, branch.explanation);
+  if (is_unfinished(branch.stop)) throw continuation::Unfinished(branch.stop, branch.explanation);
   return branch;
 }
 

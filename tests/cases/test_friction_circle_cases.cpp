@@ -316,6 +316,28 @@ TEST_CASE("Friction in a plane of which one direction never moves is friction in
   }
 }
 
+TEST_CASE("Elements with friction begin at preloads that let everything slip, where sweeps over P arrive",
+          "[cases]") {
+  const std::string name = GENERATE("lift_off", "friction_circle");
+  const double eta = GENERATE(0.06, 0.1);
+  for (const double preload : {1e-2, 3e-4, 1e-6}) {
+    CAPTURE(name, eta, preload);
+    const Run begun(name, {preload_of(preload), fmt::format("branch.from={}", eta),
+                           fmt::format("branch.to={}", 1.001 * eta)});
+    const Run swept(name, {"branch.parameter=\"P\"", fmt::format("branch.eta={}", eta), "branch.from=30.0",
+                           fmt::format("branch.to={}", preload)});
+    const continuation::Branch& over_eta = begun.traced.at(0).branch;
+    const continuation::Branch& over_preload = swept.traced.at(0).branch;
+    REQUIRE(over_eta.stop == Stop::reached_end);
+    REQUIRE(over_preload.stop == Stop::reached_end);
+    for (const char* of : {"Y", "R", "T_max_friction"}) {
+      const std::string known = std::string(of) + (of[0] == 'T' && name != "lift_off" ? "_2d" : "");
+      CHECK_THAT(value(begun.traced[0], over_eta.points.front(), known),
+                 WithinRel(value(swept.traced[0], over_preload.points.back(), known), 1e-7));
+    }
+  }
+}
+
 TEST_CASE("What friction in a plane is not made for is refused in one line", "[plane]") {
   RandomSystems draw(1);
   const SmallStructure s = random_structure(draw);

@@ -104,6 +104,9 @@ class HarmonicResponse : public HarmonicProblem {
   std::optional<continuation::Guess> reached(const continuation::Problem& path,
                                              const continuation::Guess& start, Index parameter, double to,
                                              const continuation::TraceOptions& limits) const;
+  std::optional<continuation::Guess> under_load(const continuation::Guess& guess, double part,
+                                                const continuation::TraceOptions& limits, double& stuck,
+                                                std::string& why) const;
   double take_small(continuation::Guess& stuck, double share) const;
 
   /// One harmonic of F, weight (f + (1 + C_h K)^{-1} (x - f - x0)) but for |x|.
