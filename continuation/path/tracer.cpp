@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "arcslip/continuation/events/corner.hpp"
 #include "arcslip/continuation/points/extended_problem.hpp"
@@ -187,7 +188,10 @@ bool Tracer::try_step() {
   stepper_.set_on_target(!targets_.taken().empty());
   const double rate = stepper_.parameter_slope(state_.hold);
   landing_ = next_target(1.1 * distance * std::abs(rate) * parameter_scale(), rate > 0 ? 1 : -1);
-  if (landing_ != nullptr) return try_landing();
+  if (landing_ != nullptr) {
+    if (!comes_by_halves(*landing_)) return try_landing();
+    halve_way_to(*std::exchange(landing_, nullptr));
+  }
   if (stepper_.is_over_parameter()) {
     use(Hold::parameter);
     distance = to_even_value(distance, rate);

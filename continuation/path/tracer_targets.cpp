@@ -10,6 +10,8 @@
 namespace arcslip::continuation {
 namespace {
 
+constexpr double long_step = 0.01;  // of a chord: before a turn it is as short as the root of a gap
+
 /// Whether a value has all but vanished over a step, as it must where its zero is as near to the end as
 /// values are one.
 bool vanishes(double from, double to) {
@@ -114,11 +116,28 @@ const Target* Tracer::next_target(double reach, double direction) const {
 /// only, however long it was. Before a fold it would have been as short as the root of the gap.
 bool Tracer::only_approaches(const Target& target) const {
   constexpr double most_of_it = 0.1;
-  constexpr double long_step = 0.01;
   const double gap = std::abs(target.value - value());
   const double scale = target.value == 0 ? start_scale() : parameter_scale();
   return gap <= options_.tolerances.same_value * scale &&
          gap >= most_of_it * std::abs(target.value - state_.last_value) && state_.last_chord >= long_step;
+}
+
+/// Whether the last step halved the gap to a value on which none had landed, was long and yet bent away from
+/// it: so a branch comes near to what it never reaches, and a landing would be lost again.
+bool Tracer::comes_by_halves(const Target& target) const {
+  constexpr double same = 1e-6;
+  constexpr double bends = 1.2;  // times the last step: what falls exponentially does by 1 / ln 2
+  const double gap = std::abs(target.value - value());
+  const bool has_halved = std::abs(gap - std::abs(value() - state_.last_value)) <= same * gap;
+  if (!has_halved || state_.last_chord < long_step || only_approaches(target)) return false;
+  const double way = gap / (parameter_scale() * std::abs(stepper_.parameter_slope(Hold::tangent)));
+  return way > bends * state_.last_chord;
+}
+
+void Tracer::halve_way_to(const Target& target) {
+  use(Hold::parameter);
+  state_.distance = std::min(0.5 * std::abs(target.value - value()) / parameter_scale(),
+                             longest_step() / stepper_.slope_length(state_.hold));
 }
 
 /// Where no step lands on a value that is within rounding, the branch has reached it; one that it only

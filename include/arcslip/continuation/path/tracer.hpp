@@ -61,6 +61,8 @@ class Tracer {
   bool try_landing();
   const Target* next_target(double reach, double direction) const;
   bool only_approaches(const Target& target) const;
+  bool comes_by_halves(const Target& target) const;
+  void halve_way_to(const Target& target);
   void rest_before(const Target& target);
   double to_even_value(double distance, double rate) const;
   bool find_events();
