@@ -33,7 +33,10 @@ void end_with_kind(const OrbitProblem& orbits, TraceOptions& options, double beg
 
 bool tell_end_of_kind(const OrbitProblem& orbits, const Problem& traced, const std::string& parameter,
                       Branch& branch) {
-  if (branch.stop != Stop::requested || branch.points.back().label != end_of_kind_name) return false;
+  const auto found = std::find_if(branch.points.rbegin(), branch.points.rend(),
+                                  [](const BranchPoint& point) { return point.label == end_of_kind_name; });
+  if (branch.stop != Stop::requested || found == branch.points.rend()) return false;
+  branch.points.erase(found.base(), branch.points.end());  // what was told at the same place
   BranchPoint& last = branch.points.back();
   last.type = PointType::end;
   last.label.clear();

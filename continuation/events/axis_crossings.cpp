@@ -28,7 +28,9 @@ class AxisSearch {
     if (step_.is_whole() && pairs_pass_each_other()) return step_.fail();
     const Index count = at_end_.size();
     double from = 0;
-    Index unstable = unstable_at_start(from);
+    const std::optional<Index> counted = unstable_at_start(from);
+    if (!counted) return;
+    Index unstable = *counted;
     for (Index tries = 0; tries < count; ++tries) {
       Zero next;
       Index crosses = 0;
@@ -73,8 +75,9 @@ class AxisSearch {
 
   /// As was counted, where the step begins on the axis; else the values themselves tell. On a branch point
   /// one of them vanishes, as well as that is located: which way it goes tells where it is ahead. Where some
-  /// were told to vanish it shows a little ahead, `from` where they are looked for then.
-  Index unstable_at_start(double& from) {
+  /// were told to vanish it shows a little ahead, `from` where they are looked for then. None where a branch
+  /// begins on a point at which several vanish, and that does not show.
+  std::optional<Index> unstable_at_start(double& from) {
     const Index both = std::min(at_end_.size(), static_cast<Index>(here_.size()));
     double way = 0;
     for (Index i = 0; i < both; ++i)
@@ -99,8 +102,9 @@ class AxisSearch {
     }
     const Index least = above(near);
     const Index most = above(-near);
-    if (step_.signs.at_crossing && least < most) {
-      if (const std::optional<Index> ahead = unstable_ahead(least, most, from)) return *ahead;
+    if ((step_.signs.at_crossing || on_branch_point) && least < most) {
+      if (const std::optional<Index> ahead = unstable_ahead(least, most, from)) return ahead;
+      if (!step_.signs.at_crossing && most - least > 1) return std::nullopt;
     }
     return std::clamp<Index>(counted, least, most);
   }
@@ -137,7 +141,9 @@ class AxisSearch {
     if (k < here_.size() && std::abs(here_[k]) <= rounding && std::abs(end) <= rounding)
       return std::abs(step_.readings.value(step_.readings.real_part(i), 0.5 * step_.upper()).value_or(0)) >
              rounding;
-    return sign_of(end) != sign || step_.watch.rate_may_vanish(k, step_.chord(), end);
+    const bool ends_there = step_.ends_at_event() && k < here_.size() &&
+                            std::abs(end) <= step_.tolerances.coincides * std::abs(here_[k]);
+    return ends_there || sign_of(end) != sign || step_.watch.rate_may_vanish(k, step_.chord(), end);
   }
 
   Zero cross(Index i, int sign, double from) {

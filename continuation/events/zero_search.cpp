@@ -9,11 +9,18 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double just_behind = 1e-6;  // of the step: where a function is read that has no value before
+constexpr double flat = 1e-6;         // of a change: a slope over the way that is none
+constexpr double noise = 1e-11;       // of a change: a value that may be no more
+constexpr double clear = 1e-4;  // of the way: from a zero that is divided out, and leaves rounding beside it
 
 /// Zeros that are known, to be divided out of a function.
 struct Divisor {
   std::optional<double> low;
   std::optional<double> high;
+
+  bool is_near(double s, double way) const {
+    return (low && std::abs(s - *low) < way) || (high && std::abs(s - *high) < way);
+  }
 
   Node divide(Node node) const {
     for (const std::optional<double>& zero : {low, high}) {
@@ -52,8 +59,10 @@ Zero ZeroSearch::first_between(const Node& a, const Node& b, int sign, double to
   const bool vanishes_here = is_small && (options_.jumps_count || is_left_over(a, b, which));
   if (is_beyond && !vanishes_here) sign = -sign;  // it has jumped there
   if (vanishes_here) {
-    if (sign != 0 && sign_of(a.slope) == -sign)  // it is just ahead, but for rounding
-      return {Zero::State::found, a.s + std::clamp(-a.value / a.slope, 0.0, width)};
+    // Of a double zero that the way begins on the slope is rounding.
+    const bool is_flat = options_.least_touched == 0 && std::abs(a.slope) * width < flat * change;
+    if (sign != 0 && sign_of(a.slope) == -sign && !is_flat)
+      return {Zero::State::found, just_ahead(a, width, std::abs(a.value) > noise * change ? sign : 0, which)};
     divisor.low = a.s;
   }
   if (std::abs(b.value) <= tolerance * change) divisor.high = b.s;
@@ -75,15 +84,29 @@ Zero ZeroSearch::first_between(const Node& a, const Node& b, int sign, double to
                  ? by_sign(a, b, sign, which)
                  : Zero{Zero::State::failed};
     case FirstZero::Kind::touch:
-      if (divisor.low || divisor.high) return {Zero::State::absent};
+      if (divisor.is_near(found.before.s, clear * width)) return {Zero::State::absent};
       if (change >= options_.least_touched) return {Zero::State::found, found.before.s, true};
-      return by_sign(a, b, sign, which);
+      return divisor.low || divisor.high ? Zero{Zero::State::absent} : by_sign(a, b, sign, which);
     case FirstZero::Kind::change:
       return locate(found.before, found.behind, std::max(std::abs(from.value), std::abs(to.value)), value_at);
     case FirstZero::Kind::none: break;
   }
   const bool ends_there = divisor.high && b.slope * (divisor.low ? a.slope : a.value) < 0;
   return {ends_there ? Zero::State::found : Zero::State::absent, b.s};
+}
+
+/// A zero close to where the way begins, as the slope there has it; where the `sign` of the value there is
+/// known, from between that and the other sign.
+double ZeroSearch::just_ahead(const Node& a, double width, int sign, std::size_t which) {
+  const double way = std::clamp(-a.value / a.slope, 0.0, width);
+  if (sign == 0 || sign_of(a.value) != sign) return a.s + way;
+  for (double reach = 2 * way; reach < width && reach <= 16 * way; reach *= 2) {
+    const std::optional<double> there = readings_.value(which, a.s + reach);
+    if (there && sign_of(*there) == -sign)
+      return zero_between([&](double s) { return readings_.value(which, s).value_or(0); }, a.s, a.s + reach,
+                          a.value, *there);
+  }
+  return a.s + way;
 }
 
 /// Whether the first value is what rounding leaves of a zero.

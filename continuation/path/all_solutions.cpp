@@ -1,5 +1,7 @@
 #include "arcslip/continuation/path/all_solutions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <random>
 #include <set>
@@ -167,6 +169,18 @@ class Branches {
   long count_ = 0;
 };
 
+void check_box(const SolveAllOptions& options, Index unknowns) {
+  const Vector& lower = options.lower;
+  const Vector& upper = options.upper;
+  if (lower.size() == 0 && upper.size() == 0) return;
+  const bool fits = lower.size() == unknowns && upper.size() == unknowns && lower.allFinite() &&
+                    upper.allFinite() && (lower.array() < upper.array()).all();
+  if (!fits)
+    throw std::invalid_argument(
+        fmt::format("box: expected the lowest and the highest value of {}, finite and in this order",
+                    unknowns == 1 ? "the unknown" : fmt::format("each of the {} unknowns", unknowns)));
+}
+
 /// Starts spread over the box; counts what Newton's method finds from them by itself.
 void start_in_box(const Problem& problem, const Guess& first, const SolveAllOptions& options,
                   Collector& collector, SolutionSearch& search) {
@@ -192,6 +206,7 @@ void start_in_box(const Problem& problem, const Guess& first, const SolveAllOpti
 SolutionSearch search_solutions(const Problem& problem, const std::vector<Guess>& guesses,
                                 const SolveAllOptions& options) {
   if (guesses.empty()) throw std::invalid_argument("solve_all: at least one guess is needed");
+  check_box(options, problem.size());
   const double on_border = options.tolerances.both_sides;
   SolutionSearch search;
   Collector collector(problem, options);

@@ -125,7 +125,7 @@ std::vector<Guess> ways_through(const Problem& problem, Index active, const Bran
   std::vector<Vector> directions;
   if (multiple) {
     directions = multiple->directions;
-    untold = untold || directions.empty();
+    untold = untold || directions.empty() || !multiple->is_whole;
   } else if (const auto form = branch_point_form(problem, active, at, tolerances)) {
     directions.assign(form->directions.begin(), form->directions.end());
   }
@@ -215,8 +215,8 @@ bool passes(const std::vector<Branch>& branches, const Problem& problem, const G
 /// What is said where several eigenvalues vanish at once and directions are not told.
 std::string untold_branches(const std::string& parameter, double at) {
   return fmt::format(
-      "at {} = {:.10g} several eigenvalues vanish at once, and the branches that leave there are not told by "
-      "derivatives of the second and third order; they were not followed",
+      "at {} = {:.10g} several eigenvalues vanish at once, and not all branches that leave there are told by "
+      "derivatives of the second and third order; others were not followed",
       parameter, at);
 }
 

@@ -57,8 +57,6 @@ void Tracer::start(const Guess& guess, double forward) {
   const bool on_branch_point = std::isinf(stepper_.here().log_determinant);
   watch_.begin(stepper_.here());
   state_.signs = signs_at_start(stepper_, watch_);
-  // The eigenvalue that vanishes at a branch point has no sign but that of rounding.
-  if (on_branch_point) state_.signs.unstable = -1;
   state_.start = stepper_.here();
   store(PointType::start);
   take_where_it_starts(!is_free || on_branch_point);
@@ -115,7 +113,8 @@ void Tracer::set_signs_of_zeros(bool is_ahead, bool is_only) {
 /// The same of eigenvalues on the axis but for rounding: on the way that tells of them those are unstable
 /// before that are not ahead.
 void Tracer::count_unstable_before(const CurvePoint& ahead, bool tells) {
-  if (state_.signs.unstable < 0 || watch_.eigenvalues().size() == 0) return;
+  const bool on_branch_point = std::isinf(stepper_.here().log_determinant);  // where the step itself tells
+  if (on_branch_point || state_.signs.unstable < 0 || watch_.eigenvalues().size() == 0) return;
   const std::vector<double>& rates = watch_.kept().front().rates;
   const double near = options_.tolerances.rough * watch_.eigenvalues().cwiseAbs().maxCoeff();
   const auto above = [&](double bound) {

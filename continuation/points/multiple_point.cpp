@@ -236,6 +236,29 @@ std::vector<double> zeros_on_half_circle(const std::function<double(double angle
   return zeros;
 }
 
+/// Whether it comes to zero and keeps its sign.
+bool touches_zero(const std::function<double(double angle)>& form) {
+  constexpr int places = 180;
+  constexpr double nothing = 1e-6;  // of the largest
+  std::array<double, places + 2> values;
+  double largest = 0;
+  for (int i = 0; i < places + 2; ++i) {
+    double& value = values[static_cast<std::size_t>(i)];
+    value = form(pi * i / places);
+    largest = std::max(largest, std::abs(value));
+  }
+  for (std::size_t i = 1; i + 1 < values.size(); ++i) {
+    const double sign = values[i] < 0 ? -1 : 1;
+    const double before = sign * values[i - 1];
+    const double here = sign * values[i];
+    const double behind = sign * values[i + 1];
+    if (!(before > here && behind >= here)) continue;
+    const double least = here - (behind - before) * (behind - before) / (8 * (before - 2 * here + behind));
+    if (least < nothing * largest) return true;
+  }
+  return false;
+}
+
 /// The other branches through a double point: y = E x + y_0 t, in the coordinates of its null space.
 class OtherBranches {
  public:
@@ -244,6 +267,9 @@ class OtherBranches {
     across_ = perpendicular(own_);
     for (Index j = 0; j < 2; ++j) b_.col(j) = 2 * point.quadratic(own_, across_.col(j));
   }
+
+  /// Whether all of them are told: none leave along a direction in which others do as well.
+  bool is_whole() const { return is_whole_; }
 
   std::vector<Eigen::Vector3d> all() {
     if (!(std::abs(b_.determinant()) > negligible_ * b_.squaredNorm())) return {};
@@ -288,16 +314,18 @@ class OtherBranches {
   }
 
   template <class Terms>
-  std::vector<Eigen::Vector3d> zeros(const Terms& terms) const {
+  std::vector<Eigen::Vector3d> zeros(const Terms& terms) {
     const auto beside = [&](double angle) { return cross(b_ * on_circle(angle), terms(angle)); };
     std::vector<Eigen::Vector3d> found;
     for (const double angle : zeros_on_half_circle(beside)) found.push_back(at(angle));
+    is_whole_ = !touches_zero(beside);
     return found;
   }
 
   DoublePoint& point_;
   Eigen::Vector3d own_;
   double negligible_;
+  bool is_whole_ = true;
   Eigen::Matrix<double, 3, 2> across_;  // E
   Eigen::Matrix2d b_;
 };
@@ -331,6 +359,7 @@ std::optional<MultiplePoint> multiple_point(const Problem& problem, Index active
   if (!point.set_forms()) return found;
   OtherBranches others(point, point.coordinates(branch.direction), tolerances.turns);
   for (const Eigen::Vector3d& way : others.all()) found.directions.push_back(point.direction(way));
+  found.is_whole = others.is_whole();
   return found;
 }
 

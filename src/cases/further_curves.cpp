@@ -43,23 +43,36 @@ bool is_known(const TracedBranch& curve, const ExtendedProblem& kind, const Base
          });
 }
 
-/// Of a curve of Hopf points the part that is one: from a Bogdanov-Takens point on the other way are neutral
+/// How far inside a pair of eigenvalues is imaginary, or one of multipliers is on the unit circle, where that
+/// is what the points are; elsewhere, as beyond Bogdanov-Takens points and 1:1 resonances, they are neutral
 /// saddles.
-void keep_hopf_points(TracedBranch& curve) {
-  const auto* hopf = dynamic_cast<const continuation::HopfProblem*>(curve.curve.get());
-  if (hopf == nullptr) return;
+double inside(const ExtendedProblem& problem, const BasePoint& at) {
+  if (dynamic_cast<const continuation::HopfProblem*>(&problem) != nullptr) return at.extras(0);
+  if (dynamic_cast<const continuation::TorusProblem*>(&problem) != nullptr) return 1 - std::abs(at.extras(0));
+  return 1;
+}
+
+bool is_one(const ExtendedProblem& problem, const BasePoint& at) { return inside(problem, at) > 0; }
+
+/// Without neutral saddles.
+void keep_pairs(TracedBranch& curve) {
   constexpr double rounding = 1e-6;
   std::erase_if(curve.branch.points, [&](const BranchPoint& point) {
-    return hopf->split(point.unknowns, point.parameters, point.regime).extras(0) < -rounding;
+    return inside(*curve.curve, curve.curve->split(point.unknowns, point.parameters, point.regime)) <
+           -rounding;
   });
 }
 
-/// Whether a pair of eigenvalues is imaginary, or one of multipliers on the unit circle, where that is what
-/// the points are.
-bool is_one(const ExtendedProblem& problem, const BasePoint& at) {
-  if (dynamic_cast<const continuation::HopfProblem*>(&problem) != nullptr) return at.extras(0) > 0;
-  if (dynamic_cast<const continuation::TorusProblem*>(&problem) != nullptr) return std::abs(at.extras(0)) < 1;
-  return true;
+/// Whether of what was traced nothing is left but where it began: pairs that meet with two eigenvectors need
+/// not leave.
+bool has_no_pairs(const TracedBranch& curve) {
+  constexpr double rounding = 1e-6;
+  const auto is_left = [&](const BranchPoint& point) {
+    return inside(*curve.curve, curve.curve->split(point.unknowns, point.parameters, point.regime)) >
+           rounding;
+  };
+  return curve.branch.stop != continuation::Stop::no_start &&
+         std::none_of(curve.branch.points.begin(), curve.branch.points.end(), is_left);
 }
 
 /// Moves a start on a special point beside it, so that this is passed as others are: of Hopf points to the
@@ -122,7 +135,7 @@ FurtherCurve meeting(const TracedBranch& from, const continuation::CurveWindow& 
       return continuation::Curve{base.problem, problem,
                                  continuation::trace_curve(*problem, beside, options, window, observer)};
     });
-    keep_hopf_points(traced);
+    keep_pairs(traced);
     return traced;
   };
   return {start.point.parameters, false, is_part_of, trace};
@@ -195,7 +208,8 @@ void follow_curves(TraceOptions options, const continuation::CurveWindow& window
       return false;
     }
     options.max_seconds = time.rest().max_seconds;
-    curves.push_back(one.trace(options, observer));
+    if (TracedBranch traced = one.trace(options, observer); !has_no_pairs(traced))
+      curves.push_back(std::move(traced));
     return true;
   };
   std::vector<FurtherCurve> of_cycles;  // that begin on others: they wait for all of these

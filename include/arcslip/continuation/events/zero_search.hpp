@@ -49,6 +49,7 @@ class ZeroSearch {
   using ValueAt = std::function<std::optional<double>(double s)>;
 
   Zero first_between(const Node& a, const Node& b, int sign, double tolerance, std::size_t which);
+  double just_ahead(const Node& a, double width, int sign, std::size_t which);
   Zero just_behind_corner(double s, double to, int before, std::size_t which);
   bool is_left_over(const Node& a, const Node& b, std::size_t which);
   Zero locate(const Node& a, const Node& b, double size, const ValueAt& at) const;

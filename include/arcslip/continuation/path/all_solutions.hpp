@@ -42,7 +42,8 @@ struct [[nodiscard]] SolutionSearch {
 /// are traced, and those that leave them at branch points; where they have the parameters again there is a
 /// solution, and from their folds deflation starts once more; all until nothing new is found. The same for
 /// the same input. A solution counts only within its regime; one beyond borders is a start in the regime
-/// beyond them. All guesses must share their parameters.
+/// beyond them. All guesses must share their parameters. Throws std::invalid_argument without a guess, and
+/// for a box that is none.
 SolutionSearch search_solutions(const Problem& problem, const std::vector<Guess>& guesses,
                                 const SolveAllOptions& options = {});
 

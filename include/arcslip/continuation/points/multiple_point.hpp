@@ -22,6 +22,7 @@ struct MultiplePoint {
   Guess at;                        ///< as its own conditions have it, which hold it across all branches
   bool is_double = false;          ///< two eigenvalues; else more, and no direction is told
   std::vector<Vector> directions;  ///< of the other branches, n + 1; none where these terms do not tell
+  bool is_whole = true;            ///< whether these are all, as far as such terms go
 };
 /// At a point of a branch along `branch.direction`; none where that is regular or a simple branch point.
 [[nodiscard]] std::optional<MultiplePoint> multiple_point(const Problem& problem, Index active,
