@@ -109,6 +109,8 @@ function panelLayout(panels, state, axes) {
   const gap = columns > 1 ? 0.075 : 0;
   const width = (1 - gap * (columns - 1)) / columns;
   const layout = { annotations: [] };
+  const isLong = several && axes.y && plainText(axes.y).length > 24;  // for the height of a panel
+  const up = isLong ? axes.y.replace(" [", "<br>[") : axes.y;
   const common = { gridcolor: "#e3e7ec", linecolor: "#8a94a3", tickcolor: "#8a94a3", zeroline: false, mirror: true,
     ticks: "outside", ticklen: 4, exponentformat: "power", automargin: true };
   panels.forEach((panel, i) => {
@@ -119,7 +121,7 @@ function panelLayout(panels, state, axes) {
       title: { text: i + columns >= panels.length ? axes.x : "", standoff: 8 }, nticks: columns > 1 ? 6 : undefined };
     layout[`yaxis${number}`] = { ...common, type: state.logY ? "log" : "linear", anchor: `x${number}`,
       domain: [1 - (row + 1 - (rows > 1 ? 0.16 : 0)) / rows, 1 - (row + (several ? 0.07 : 0)) / rows],
-      matches: i ? "y" : undefined, title: { text: column ? "" : axes.y || panel.title, standoff: 6 } };
+      matches: i ? "y" : undefined, title: { text: column ? "" : up || panel.title, standoff: 6 } };
     if (several) {
       layout.annotations.push({ text: `<b>${panel.short}</b>`, showarrow: false, x: 0, y: 1, xanchor: "left",
         yanchor: "bottom", xref: `x${number} domain`, yref: `y${number} domain` });

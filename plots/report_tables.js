@@ -66,7 +66,7 @@ function branchTable({ summary: { branches, case: input } }) {
 }
 
 function specialTable(run, model) {
-  const rows = run.summary.branches.flatMap((branch, i) => (branch.special || []).map(({ type, ...numbers }) =>
+  const rows = run.summary.branches.flatMap((branch, i) => (branch.special || []).map(({ type, state, ...numbers }) =>
     ({ of: model.branches[i] ? plainText(model.branches[i].label) : "", point: type.replaceAll("_", " "), ...numbers })));
   return tableOf("special", [...new Set(rows.flatMap(Object.keys))], rows, { system: model.system });
 }

@@ -88,15 +88,18 @@ class PicturesOfRun:
             Quantity(curves, mode, r"phase difference  $(\alpha - \beta)/\pi$", r"$(\alpha - \beta)/\pi$", is_linear=True))
 
     def _dissipated(self, x, mode):
-        """Nothing is lost in stick, nor at its ends."""
+        """Nothing is lost in stick, nor at its ends but for rounding."""
+        least = 4e-5  # over k S^2, as in one harmonic where R/S is 1 + 1e-5
         if "dissipated_J" in self.data.table.columns:
             (joules,) = self.data.columns("dissipated_J")
             column = words.well_sized("dissipated_J", np.nanmax(np.abs(joules), initial=0))
-            names, energy, title, short = (column,), lambda e: e, words.axis_title(column), words.short_title(column)
+            other, energy, title, short = column, lambda d, e: e, words.axis_title(column), words.short_title(column)
         else:
-            names, energy = ("dissipated", "S"), lambda d, s: d * s**2
-            title, short = "dissipated  $4S\\,(R - S)$", "$4S\\,(R - S)$"
-        known = (("R_over_S", *names), lambda r, *rest: np.where(r > 1 + 1e-5, energy(*rest), np.nan))
+            other, energy, title = "S", lambda d, s: d * s**2, "dissipated energy over $k$"
+            if self.data.system.get("harmonics", 1) in (1, [1]):
+                title = "dissipated  $4S\\,(R - S)$"
+            short = title.replace("dissipated  ", "")
+        known = (("dissipated", other), lambda d, value: np.where(d > least, energy(d, value), np.nan))
         curves = self.data.curves(x, known, mode, ["switch"])
         if mode == "regimes":
             for curve in curves:

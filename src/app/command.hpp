@@ -33,4 +33,10 @@ inline bool is_command(const std::string& name) {
 /// `--set`.
 void add_settings(CLI::App* command, std::vector<std::string>& settings);
 
+/// What is wrong with a folder's name, empty where nothing is.
+std::string check_folder(const std::string& name);
+
+/// Lets an option be a finite number > 0.
+CLI::Validator positive_number();
+
 }  // namespace arcslip

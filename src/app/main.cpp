@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <csignal>
 #include <map>
 #include <new>
@@ -50,7 +51,9 @@ Exit status
 /// Why a word in the place of a command is none; empty where it is one, or no word.
 std::string unknown_command(const std::string& word) {
   using namespace arcslip;
-  if (word.empty() || word.front() == '-' || is_command(word)) return "";
+  if (word.empty() || is_command(word) || word == "-h" || word == "--help" || word == "--version") return "";
+  if (word.front() == '-')
+    return "arcslip: unknown option '" + printable(word, longest_name) + "'; see arcslip --help";
   std::vector<std::string> names;
   for (const Command& command : commands()) names.push_back(command.name);
   const std::string meant = nearest_name(word, names);
@@ -95,6 +98,19 @@ void arcslip::add_settings(CLI::App* command, std::vector<std::string>& settings
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);
+}
+
+std::string arcslip::check_folder(const std::string& name) {
+  return name.empty() ? "expected the name of a folder, got ''" : "";
+}
+
+CLI::Validator arcslip::positive_number() {
+  const auto wrong = [](const std::string& number) -> std::string {
+    double value = 0;
+    const bool is_positive = CLI::detail::lexical_cast(number, value) && value > 0 && std::isfinite(value);
+    return is_positive ? "" : "expected a number > 0, got '" + printable(number, longest_name) + "'";
+  };
+  return {wrong, "POSITIVE"};
 }
 
 void arcslip::warn(const std::vector<std::string>& warnings) {

@@ -106,8 +106,9 @@ TomlDocument::TomlDocument(std::string name, const std::string& text,
 
 void TomlDocument::apply(const std::string& setting) {
   const std::size_t equals = setting.find('=');
-  const std::vector<std::string> keys = split_path(setting.substr(0, equals));
-  if (equals == std::string::npos || keys.empty() || keys.size() > deepest_key ||
+  const std::string path = setting.substr(0, equals);
+  const std::vector<std::string> keys = split_path(path);
+  if (equals == std::string::npos || keys.empty() || path.ends_with('.') || keys.size() > deepest_key ||
       !std::all_of(keys.begin(), keys.end(), is_bare_word)) {
     refuse(setting, "expected section.key=value");
   }

@@ -1,6 +1,9 @@
 #include "results/branch_columns.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace arcslip {
@@ -17,6 +20,14 @@ Columns::Columns(const TracedBranch& traced, BranchTable::Detail detail)
   for (const continuation::Observable& observable : problem_.observables()) {
     const bool first = static_cast<Index>(names_.size()) == parameters_;
     names_.insert(first && moved_ >= 0 ? names_.begin() + moved_ : names_.end(), observable.name);
+  }
+  const auto* harmonic = dynamic_cast<const problems::HarmonicProblem*>(traced.base.problem.get());
+  for (Index i = 0; harmonic != nullptr && i < harmonic->contacts(); ++i) {
+    if (harmonic->system().contacts[static_cast<std::size_t>(i)].stiffness > 0) continue;
+    const std::string suffix = i == 0 ? "" : fmt::format("_contact_{}", i + 1);
+    for (const char* name : {"S", "R_over_S"}) {
+      if (const Index place = find(name + suffix); place >= 0) undefined_.push_back(place);
+    }
   }
 }
 
@@ -36,12 +47,13 @@ const std::vector<double>& Columns::values(const continuation::BranchPoint& poin
     values_.resize(names_.size());
     Eigen::Map<Vector>(values_.data(), std::ssize(names_)) =
         told_->row(&point - points_.data()).head(std::ssize(names_));
-    return values_;
+  } else {
+    observe(point);
+    values_.assign(point.parameters.begin(), point.parameters.end());
+    if (moved_ >= 0) values_.insert(values_.begin() + moved_, observed_(0));
+    values_.insert(values_.end(), observed_.begin() + (moved_ >= 0 ? 1 : 0), observed_.end());
   }
-  observe(point);
-  values_.assign(point.parameters.begin(), point.parameters.end());
-  if (moved_ >= 0) values_.insert(values_.begin() + moved_, observed_(0));
-  values_.insert(values_.end(), observed_.begin() + (moved_ >= 0 ? 1 : 0), observed_.end());
+  for (const Index place : undefined_) values_[static_cast<std::size_t>(place)] = std::nan("");
   return values_;
 }
 

@@ -42,6 +42,7 @@ class Columns {
   std::vector<std::string> names_;
   Index parameters_ = 0;
   Index moved_ = -1;
+  std::vector<Index> undefined_;  // of contacts of stiffness 0, which have no slip threshold
   Vector observed_;
   std::vector<double> values_;
 };

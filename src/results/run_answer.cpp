@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "arcslip/continuation/path/stop.hpp"
 #include "cases/unit_names.hpp"
@@ -108,7 +109,9 @@ std::string plural_of(const Count& count) {
     if (count.first == type) name = words;
   }
   if (count.second == 1) return name;
-  if (count.first == "symmetry_breaking") return "breakings of symmetry";
+  for (const std::string_view several : {"breaking", "further slip", "lift off"}) {
+    if (name.starts_with(several)) return name.insert(several.size(), "s");
+  }
   return name + (name.ends_with("ch") ? "es" : "s");
 }
 

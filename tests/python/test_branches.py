@@ -80,6 +80,22 @@ def test_a_list_of_solutions_says_whether_it_is_all():
     assert arcslip.solve_all(lambda u, p: u - p, [2.0], 1.0).complete is None
 
 
+@pytest.mark.parametrize("box", [([5.0], [-5.0]), ([np.nan], [5.0]), ([0.0], [0.0]), ([-5.0, -5.0], [5.0, 5.0]), ([], []),
+                                 ([-5.0], [5.0], [6.0]), 5, ([-5.0], [np.inf])])
+def test_a_box_that_is_none_is_refused(box):
+    cusp = arcslip.Model({"x": "q + p*x - x^3"}, parameters={"p": 3.0, "q": 1.0}, kind="algebraic")
+    with pytest.raises(ValueError, match="box: expected"):
+        arcslip.solve_all(cusp, box=box)
+    with pytest.raises(ValueError, match="box: expected"):
+        arcslip.trace_all(cusp, parameter="p", range=(0, 4), follow="deflation", box=box)
+
+
+@pytest.mark.parametrize("ends", ["ab", (-1,), 5, (0, 1, 2), (0, "b")])
+def test_a_range_that_is_none_is_refused(ends):
+    with pytest.raises(ValueError, match="range: expected"):
+        arcslip.trace(circle, [1.0], {"lambda": 0.0}, range=ends)
+
+
 def test_what_hangs_together_is_begun_anywhere_or_everywhere():
     pitchfork = lambda u, p: u * p - u**3  # noqa: E731
     connected = arcslip.trace_all(pitchfork, [0.0], -0.5, range=(-1, 1))

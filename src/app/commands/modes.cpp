@@ -120,14 +120,15 @@ Command::Action add_modes(CLI::App& app) {
       "modes", "Natural frequencies of base, damper and both stuck, for every nodal diameter");
   command->add_option("CASE", options->case_path, "Case file (TOML)")->required();
   command->add_option("-o,--output", options->folder, "Folder for the results; out/<case> if not given")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(check_folder);
   command->add_option("--to", options->highest, "The highest number of waves; 50 if not given")
       ->type_name("N")
       ->check(CLI::Range(Index{0}, Index{100000}));
   command
       ->add_option("--speed", options->speed, "Revolutions a minute, for engine-order lines in the picture")
       ->type_name("RPM")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       ->add_option("--amplitude", options->amplitudes,
                    "An amplitude R of the first contact; may be repeated. Writes DIR/damping.csv, what each "
@@ -136,7 +137,7 @@ Command::Action add_modes(CLI::App& app) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false)
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       ->add_option(
           "--campbell", options->campbell,

@@ -267,15 +267,20 @@ void Run::show(const std::string& text) {
 }
 
 void Run::say_interrupted() const {
-  complain(fmt::format("arcslip: interrupted: {} of {} not begun{}", plan_.count - begun_,
-                       plural(plan_.count, "branch", "es"),
-                       begun_ > ended_ ? ", one not brought to its end" : ""));
+  const std::size_t left = plan_.count - begun_;
+  std::string what =
+      left > 0 ? fmt::format("{} of {} not begun", left, plural(plan_.count, "branch", "es")) : "";
+  if (begun_ > ended_) what += fmt::format("{}one not brought to its end", left > 0 ? ", " : "");
+  complain("arcslip: interrupted" + (what.empty() ? "" : ": " + what));
 }
 
 }  // namespace
 
 std::string results_folder(const std::string& given, const std::string& case_path) {
-  return !given.empty() ? given : "out/" + std::filesystem::path(case_path).stem().string();
+  if (!given.empty()) return given;
+  const std::filesystem::path name = std::filesystem::path(case_path).filename();
+  const bool is_place = name.stem() == "." || name.stem() == "..";  // as of "...toml"
+  return "out/" + (is_place ? name : name.stem()).string();
 }
 
 namespace {
@@ -303,11 +308,13 @@ Command::Action add_run(CLI::App& app) {
   command->add_option("CASE", options->case_path, "Case file (TOML)")->required();
   CLI::Option* output =
       command->add_option("-o,--output", options->folder, "Folder for the results; out/<case> if not given")
-          ->type_name("DIR");
+          ->type_name("DIR")
+          ->check(check_folder);
   command
       ->add_option("--resume", options->resume,
                    "Go on with the interrupted run of this case in DIR, or one that had no time")
       ->type_name("DIR")
+      ->check(check_folder)
       ->excludes(output);
   add_settings(command, options->settings);
   command->add_flag("--quiet", options->quiet, "Print neither progress nor the table");

@@ -56,10 +56,7 @@ CLI::Option* count(CLI::App* app, const std::string& name, Index& value, const s
 }
 
 CLI::Option* positive(CLI::App* app, const std::string& name, double& value, const std::string& help) {
-  return app->add_option(name, value, help)
-      ->capture_default_str()
-      ->type_name("X")
-      ->check(CLI::PositiveNumber);
+  return app->add_option(name, value, help)->capture_default_str()->type_name("X")->check(positive_number());
 }
 
 void poisson_ratio(CLI::App* app, const std::string& name, double& value) {
@@ -68,7 +65,10 @@ void poisson_ratio(CLI::App* app, const std::string& name, double& value) {
 
 void add_shared(CLI::App* app, SectorOptions& options) {
   PairOptions& pair = options.pair;
-  app->add_option("-o,--output", options.folder, "Folder for the files")->type_name("DIR")->required();
+  app->add_option("-o,--output", options.folder, "Folder for the files")
+      ->type_name("DIR")
+      ->check(check_folder)
+      ->required();
   app->add_option("--wave-number", pair.wave_number, "n, waves round the circumference")
       ->capture_default_str()
       ->type_name("N")
@@ -79,8 +79,8 @@ void add_shared(CLI::App* app, SectorOptions& options) {
   positive(app, "--damper-damping", pair.damper_damping, "zeta of the damper");
   app->add_option("--from", pair.eta_from, "Lowest eta; beside the lowest frequencies if not given")
       ->type_name("X")
-      ->check(CLI::PositiveNumber);
-  app->add_option("--to", pair.eta_to, "Highest eta")->type_name("X")->check(CLI::PositiveNumber);
+      ->check(positive_number());
+  app->add_option("--to", pair.eta_to, "Highest eta")->type_name("X")->check(positive_number());
 }
 
 CLI::App* add_paper(CLI::App* sector, SectorOptions& options, const char* name, const char* help) {
@@ -98,7 +98,7 @@ CLI::App* add_paper(CLI::App* sector, SectorOptions& options, const char* name, 
   stiffness->default_str("");
   app->add_option("--slenderness", options.slenderness, "L/h_D, which gives K_FD; 33.3 if neither is given")
       ->type_name("X")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->excludes(stiffness);
   return app;
 }
@@ -120,7 +120,7 @@ void add_solid(CLI::App* app, SectorOptions& options) {
   app->add_option("--contact-stiffness", options.solid.contact_stiffness,
                   "N/m, of each; of the inner half of the ring in shear if not given")
       ->type_name("X")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   positive(app, "--speed", options.solid.speed,
            "Of both, revolutions a second along the numbers of the sectors")
       ->default_str("");

@@ -2,6 +2,8 @@
 
 import warnings
 
+import numpy as np
+
 from . import _core
 from ._branch import Branch
 from ._problem import Prepared, Problem, driven
@@ -100,6 +102,7 @@ def trace(
         "bound": bound,
     }
     problem = _of_points(problem, functions)
+    range = _ends(range)
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
     prepared = Prepared(problem, u0, p0, parameter, regime, range)
     options["parameter"] = prepared.parameter
@@ -141,6 +144,7 @@ def trace_all(
     if follow not in ("connected", "deflation", "all"):
         raise ValueError(f'follow: expected "connected", "deflation" or "all", got {follow!r}')
     problem = _of_points(problem, functions or {})
+    range = _ends(range)
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
     prepared = Prepared(problem, u0, p0, parameter, regime, range)
     options["parameter"] = prepared.parameter
@@ -220,6 +224,7 @@ def trace_cycles(
         if discretisation == "balance":
             raise ValueError('discretisation: only "collocation" for what is made of pieces, got "balance"')
         return _orbits(problem, p0, parameter, range, settle, follow, held, options, progress)
+    range = _ends(range)
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
     prepared = Prepared(problem, u0, p0, parameter or _first_but_time(p0, is_driven), 0, range)
     options["parameter"] = prepared.parameter
@@ -270,6 +275,7 @@ def trace_boundary(
 
 def _orbits(problem, p0, parameter, range, settle, follow, held, options, progress):
     """Branches of a Model that has orbits alone, without equilibria."""
+    range = _ends(range)
     u0, p0 = problem._begin(None, p0, parameter, range[0])
     prepared = Prepared(problem, u0, p0, parameter, 0, range)
     options["parameter"] = prepared.parameter
@@ -341,7 +347,7 @@ def solve_all(problem, u0=None, p0=None, *, box=None, starts=100, regime=0, para
     guesses = u0 if isinstance(u0, list) and u0 and not _is_number(u0[0]) else [u0]
     names = list(p0) if isinstance(p0, dict) else list(problem.parameters)
     prepared = Prepared(problem, guesses[0], p0, parameter or (names[0] if names else None), regime)
-    lower, upper = box if box is not None else (None, None)
+    lower, upper = _corners(box)
     formulas = getattr(problem, "_formulas", None)
     found, complete, reason = _core.solve_all(
         prepared.core, formulas, guesses, prepared.p0, regime, lower, upper, starts
@@ -372,8 +378,35 @@ def _problem(problem, functions):
     return Problem(problem, **functions)
 
 
+def _pair(name, given, what):
+    try:
+        first, last = given
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: expected {what}, got {given!r}") from None
+    return first, last
+
+
+def _ends(given):
+    """Of a range, as numbers."""
+    first, last = _pair("range", given, "its first and last value")
+    try:
+        return float(first), float(last)
+    except (TypeError, ValueError):
+        raise ValueError(f"range: expected two numbers, got {given!r}") from None
+
+
+def _corners(box):
+    """The lowest and the highest unknowns, or None twice."""
+    if box is None:
+        return None, None
+    lower, upper = (np.atleast_1d(corner) for corner in _pair("box", box, "lowest and highest unknowns"))
+    if not (lower.size and upper.size):
+        raise ValueError(f"box: expected lowest and highest unknowns, got {box!r}")
+    return lower, upper
+
+
 def _way(prepared, given):
-    first, last = (float(value) for value in given)
+    first, last = given
     value = prepared.p0[prepared.names.index(prepared.parameter)]
     if value == first:
         return "one", (first, last)
@@ -385,7 +418,7 @@ def _way(prepared, given):
 
 
 def _traced(prepared, how, box, check, options, progress):
-    lower, upper = box if box is not None else (None, None)
+    lower, upper = _corners(box)
     return _core.trace(
         prepared.core, prepared.u0, prepared.p0, prepared.regime, how, lower, upper, check, options, progress
     )
