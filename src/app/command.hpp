@@ -33,8 +33,11 @@ inline bool is_command(const std::string& name) {
 /// `--set`.
 void add_settings(CLI::App* command, std::vector<std::string>& settings);
 
-/// What is wrong with a folder's name, empty where nothing is.
-std::string check_folder(const std::string& name);
+/// An option that names a folder.
+CLI::Option* add_folder(CLI::App* command, const std::string& option, std::string& folder,
+                        const std::string& help);
+/// That for the results, `-o`.
+CLI::Option* add_results_folder(CLI::App* command, std::string& folder);
 
 /// Lets an option be a finite number > 0.
 CLI::Validator positive_number();

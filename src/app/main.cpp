@@ -100,8 +100,17 @@ void arcslip::add_settings(CLI::App* command, std::vector<std::string>& settings
       ->allow_extra_args(false);
 }
 
-std::string arcslip::check_folder(const std::string& name) {
-  return name.empty() ? "expected the name of a folder, got ''" : "";
+CLI::Option* arcslip::add_folder(CLI::App* command, const std::string& option, std::string& folder,
+                                 const std::string& help) {
+  return command->add_option(option, folder, help)
+      ->type_name("DIR")
+      ->check([](const std::string& name) -> std::string {
+        return name.empty() ? "expected the name of a folder, got ''" : "";
+      });
+}
+
+CLI::Option* arcslip::add_results_folder(CLI::App* command, std::string& folder) {
+  return add_folder(command, "-o,--output", folder, "Folder for the results; out/<case> if not given");
 }
 
 CLI::Validator arcslip::positive_number() {

@@ -52,27 +52,24 @@ double inside(const ExtendedProblem& problem, const BasePoint& at) {
   return 1;
 }
 
-bool is_one(const ExtendedProblem& problem, const BasePoint& at) { return inside(problem, at) > 0; }
+constexpr double on_edge = 1e-6;  // rounding of that, where a pair meets
+
+double inside(const TracedBranch& curve, const BranchPoint& point) {
+  return inside(*curve.curve, curve.curve->split(point.unknowns, point.parameters, point.regime));
+}
 
 /// Without neutral saddles.
 void keep_pairs(TracedBranch& curve) {
-  constexpr double rounding = 1e-6;
-  std::erase_if(curve.branch.points, [&](const BranchPoint& point) {
-    return inside(*curve.curve, curve.curve->split(point.unknowns, point.parameters, point.regime)) <
-           -rounding;
-  });
+  std::erase_if(curve.branch.points,
+                [&](const BranchPoint& point) { return inside(curve, point) < -on_edge; });
 }
 
-/// Whether of what was traced nothing is left but where it began: pairs that meet with two eigenvectors need
-/// not leave.
+/// Whether of what was traced to its end nothing is left but where it began: pairs that meet with two
+/// eigenvectors need not leave.
 bool has_no_pairs(const TracedBranch& curve) {
-  constexpr double rounding = 1e-6;
-  const auto is_left = [&](const BranchPoint& point) {
-    return inside(*curve.curve, curve.curve->split(point.unknowns, point.parameters, point.regime)) >
-           rounding;
-  };
-  return curve.branch.stop != continuation::Stop::no_start &&
-         std::none_of(curve.branch.points.begin(), curve.branch.points.end(), is_left);
+  return curve.branch.complete() &&
+         std::none_of(curve.branch.points.begin(), curve.branch.points.end(),
+                      [&](const BranchPoint& point) { return inside(curve, point) > on_edge; });
 }
 
 /// Moves a start on a special point beside it, so that this is passed as others are: of Hopf points to the
@@ -86,7 +83,7 @@ void put_beside(ExtendedProblem& problem, Index second, const continuation::Trac
     BasePoint there = at;
     there.parameters(second) += way * beside * std::abs(options.to - options.from);
     const auto located = continuation::locate(problem, there, options.tolerance);
-    if (!located || !is_one(problem, located->point)) continue;
+    if (!located || !(inside(problem, located->point) > 0)) continue;
     at = located->point;
     return;
   }

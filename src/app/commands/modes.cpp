@@ -119,9 +119,7 @@ Command::Action add_modes(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "modes", "Natural frequencies of base, damper and both stuck, for every nodal diameter");
   command->add_option("CASE", options->case_path, "Case file (TOML)")->required();
-  command->add_option("-o,--output", options->folder, "Folder for the results; out/<case> if not given")
-      ->type_name("DIR")
-      ->check(check_folder);
+  add_results_folder(command, options->folder);
   command->add_option("--to", options->highest, "The highest number of waves; 50 if not given")
       ->type_name("N")
       ->check(CLI::Range(Index{0}, Index{100000}));

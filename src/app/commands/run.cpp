@@ -306,15 +306,9 @@ Command::Action add_run(CLI::App& app) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Trace the branches that [branch] of a case file asks for");
   command->add_option("CASE", options->case_path, "Case file (TOML)")->required();
-  CLI::Option* output =
-      command->add_option("-o,--output", options->folder, "Folder for the results; out/<case> if not given")
-          ->type_name("DIR")
-          ->check(check_folder);
-  command
-      ->add_option("--resume", options->resume,
-                   "Go on with the interrupted run of this case in DIR, or one that had no time")
-      ->type_name("DIR")
-      ->check(check_folder)
+  CLI::Option* output = add_results_folder(command, options->folder);
+  add_folder(command, "--resume", options->resume,
+             "Go on with the interrupted run of this case in DIR, or one that had no time")
       ->excludes(output);
   add_settings(command, options->settings);
   command->add_flag("--quiet", options->quiet, "Print neither progress nor the table");

@@ -65,10 +65,7 @@ void poisson_ratio(CLI::App* app, const std::string& name, double& value) {
 
 void add_shared(CLI::App* app, SectorOptions& options) {
   PairOptions& pair = options.pair;
-  app->add_option("-o,--output", options.folder, "Folder for the files")
-      ->type_name("DIR")
-      ->check(check_folder)
-      ->required();
+  add_folder(app, "-o,--output", options.folder, "Folder for the files")->required();
   app->add_option("--wave-number", pair.wave_number, "n, waves round the circumference")
       ->capture_default_str()
       ->type_name("N")

@@ -194,9 +194,7 @@ Command::Action add_study(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("study", "Find the best preload of each design that [study] asks for");
   command->add_option("CASE", options->case_path, "Case file (TOML)")->required();
-  command->add_option("-o,--output", options->folder, "Folder for the results; out/<case> if not given")
-      ->type_name("DIR")
-      ->check(check_folder);
+  add_results_folder(command, options->folder);
   command->add_option("--jobs", options->jobs, "Threads; one for each core if not given")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
