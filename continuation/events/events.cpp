@@ -46,7 +46,9 @@ StepSearch::StepSearch(Stepper& stepper_, Watch& watch_, const Signs& signs_)
 
 EventSearch StepSearch::run() {
   for (const EventKind* kind : event_kinds) {
+    const double end = upper_;
     if (solved()) kind->search(*this);
+    if (kind == &user_events && upper_ < end && solved()) search_extrema_before_corner();
   }
   note_jumps_at_folds();
   for (Event& event : result_.events) {
@@ -56,6 +58,20 @@ EventSearch StepSearch::run() {
       event.type = watch.real_crossing();
   }
   return std::move(result_);
+}
+
+/// An event of the user may lie on a corner, where a jump of the slope hides an extremum before it from the
+/// signs at both ends of the step. One at the corner is told by the slopes on both sides of it.
+void StepSearch::search_extrema_before_corner() {
+  const double corner = upper_;
+  const std::vector<Event> there = result_.events;
+  for (const double end : {corner, (1 - a_little) * corner}) {  // by rounding its slope is that behind it
+    upper_ = end;
+    observable_extrema.search(*this);
+    if (upper_ < end - tolerances.located * stepper.step().distance) return;
+    upper_ = corner;
+    result_.events = there;
+  }
 }
 
 /// Whether one that the problem has a name for is zero at the upper end.

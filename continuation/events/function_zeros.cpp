@@ -49,6 +49,17 @@ std::optional<Known> known_by(StepSearch& step, std::size_t which, double end, P
   return value ? std::optional(Known{step.upper(), *value}) : std::nullopt;
 }
 
+/// A little before the event at which the step ends, if the function has its other sign there: on a corner
+/// that is one of its zeros as well its sign is rounding.
+std::optional<Known> other_sign_beside(StepSearch& step, std::size_t which, int before, double at_end) {
+  constexpr double a_little = StepSearch::a_little;
+  const double located = step.tolerances.located * step.stepper.step().distance;
+  if (step.is_whole() || a_little * step.upper() <= located || before * sign_of(at_end) <= 0)
+    return std::nullopt;
+  const std::optional<Known> beside = first_known(step, which, {1 - a_little});
+  return beside && before * sign_of(beside->value) < 0 ? beside : std::nullopt;
+}
+
 /// Of as many factors as there are multipliers, of which two may vanish at once, as symmetries have it.
 bool is_product(PointType type) {
   return type == PointType::period_doubling || type == PointType::symmetry_breaking;
@@ -99,6 +110,10 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
     ZeroSearch zeros(step.stepper, step.readings, {.jumps_count = false, .left_over = 1e-5});
     const std::size_t pieces = step.readings.function(static_cast<Index>(*piece));
     Zero zero = zeros.first_of_pieces({which, pieces}, before, may_vanish, 0, to);
+    if (zero.state == Zero::State::absent) {
+      if (const std::optional<Known> beside = other_sign_beside(step, which, before, after))
+        zero = zeros.first_of_pieces({which, pieces}, before, false, 0, beside->s);
+    }
     // Functions that vanish together but for rounding do so at the last of these places, behind which all
     // have their other sign: on a piece that lies within the step none would have it at the first.
     const double located = step.tolerances.located * step.stepper.step().distance;

@@ -58,7 +58,12 @@ class StepSearch {
   void fail() { result_.solved = false; }
   bool solved() const { return result_.solved; }
 
+  /// Of the way to an event that may lie on a corner: so far before it what holds there is told from what
+  /// does behind it.
+  static constexpr double a_little = 1e-3;
+
  private:
+  void search_extrema_before_corner();
   void note_jumps_at_folds();
   bool an_eigenvalue_vanishes();
 
