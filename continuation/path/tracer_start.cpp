@@ -23,6 +23,16 @@ std::string_view reason(Correction correction) {
   return "";
 }
 
+namespace {
+
+/// Whether the parameter changes by rounding alone, which tells no way.
+bool stands_still(const Vector& tangent) {
+  constexpr double least_rate = 1e-14;
+  return std::abs(tangent(tangent.size() - 1)) < least_rate;
+}
+
+}  // namespace
+
 void Tracer::start(const Guess& guess, double forward) {
   check_functions(problem_, guess.unknowns, guess.parameters, guess.regime, stepper_.monitors().tracked());
   Correction result =
@@ -34,9 +44,13 @@ void Tracer::start(const Guess& guess, double forward) {
     return result == Correction::converged ? stepper_.starts_singular()
                                            : result != Correction::cannot_evaluate;
   };
-  if (is_free && may_be_singular() &&
-      start_singular(guess, forward, result == Correction::converged) == Correction::converged)
+  if (is_free && result == Correction::converged && stands_still(stepper_.here().tangent)) {
+    if (start_singular(guess, forward, false) != Correction::converged)
+      result = stepper_.start(guess.unknowns, guess.parameters, guess.regime, forward);
+  } else if (is_free && may_be_singular() &&
+             start_singular(guess, forward, result == Correction::converged) == Correction::converged) {
     result = Correction::converged;
+  }
   if (is_free && result != Correction::converged && start_from_afar(guess, forward))
     result = Correction::converged;
   if (result != Correction::converged) {

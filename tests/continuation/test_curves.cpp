@@ -216,6 +216,30 @@ TEST_CASE("On a curve of Hopf points the crossing of a second pair is found") {
     CHECK_THAT(point.extras(0), WithinRel(1.0, 1e-9));
 }
 
+TEST_CASE("Curves along which their parameter stands still are followed both ways, also from meetings") {
+  const TwoOscillators problem;
+  for (const double q : {0.0, 1.0, std::nextafter(1.0, 2.0)}) {
+    INFO(q);
+    BranchPoint point;
+    point.type = PointType::hopf;
+    point.unknowns = Vector::Zero(4);
+    point.parameters = vector_of({0, q});
+    point.eigenvalues.resize(4);
+    point.eigenvalues << Complex(0, 1), Complex(0, -1), Complex(q - 1, 2), Complex(q - 1, -2);
+    CurveStart start = curve_through(problem, "q", point);
+    start.point.extras = vector_of({1});
+    const Branch curve = trace_curve(*start.problem, start.point, over("p", -1, 1), {-3, 3});
+    CHECK(curve.complete());
+    const std::vector<BasePoint> points = base_points(*start.problem, curve);
+    REQUIRE(points.size() > 10);
+    CHECK_THAT(std::abs(points.front().parameters(1) - points.back().parameters(1)), WithinAbs(6, 1e-9));
+    for (const BasePoint& at : points) {
+      CHECK_THAT(at.parameters(0), WithinAbs(0, 1e-10));
+      CHECK_THAT(at.extras(0), WithinRel(1.0, 1e-9));
+    }
+  }
+}
+
 TEST_CASE("Branch points that a symmetry keeps are followed") {
   // (lambda - mu^2) x - x^3 = 0 branches off x = 0 at lambda = mu^2.
   const ScalarProblem problem(
