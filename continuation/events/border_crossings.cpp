@@ -111,7 +111,7 @@ std::vector<std::size_t> in_order(const Stepper& stepper) {
 }
 
 /// Whether a value jumps over its zero there, between two branches, from one of which the probes have come to
-/// the other: it then changes as much over a hundredth of a way.
+/// the other: over a way it then changes by less than it is off zero, or as much over a hundredth of the way.
 bool jumps(Stepper& stepper, std::size_t m, double s, double value) {
   constexpr double way = 1e-12;  // so little that steep values are far from their ends
   const auto value_at = [&](double place) -> std::optional<double> {
@@ -120,7 +120,9 @@ bool jumps(Stepper& stepper, std::size_t m, double s, double value) {
   };
   const std::optional<double> far = value_at((1 - way) * s);
   const std::optional<double> near = value_at((1 - 0.01 * way) * s);
-  return !far || !near || std::abs(value - *near) > 0.5 * std::abs(value - *far);
+  if (!far || !near) return true;
+  const double change = std::abs(value - *far);
+  return change < std::abs(value) || std::abs(value - *near) > 0.5 * change;
 }
 
 /// One border after the other, up to the first place that is known: where there are many a step passes some,

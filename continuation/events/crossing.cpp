@@ -298,7 +298,7 @@ bool CrossingSearch::take(const RemoteZero& zero, double sign_behind) {
   CurvePoint& point = crossing.point;
   corrector_.displace(step_.here, expected_, point);
   const bool has_value = corrector_.linearise(point, step_.normal) != Correction::cannot_evaluate;
-  if (!has_value || !(point.residual <= 10 * corrector_.tolerance())) return false;
+  if (!has_value || !(point.residual <= corrector_.tolerance())) return false;
   // A parameter that turns at the branch point runs the other way on its other side.
   double& rate = crossing.slope(n);
   const auto behind = std::find_if(step_.anchors.begin(), step_.anchors.end(),

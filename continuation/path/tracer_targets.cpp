@@ -74,10 +74,11 @@ bool Tracer::try_landing() {
   const bool is_end = landing_->kind == Target::Kind::end || landing_->kind == Target::Kind::bound;
   if (has_landed) {
     if (!is_end || !events_.empty() || closing_) return true;
-    // From a special point on, where something is zero, nothing is told by how little of it is left.
-    const bool is_past_special = branch_.points.back().type != PointType::regular;
+    // From a special point on, where something is zero, nothing is told by how little of it is left. Of the
+    // point that a resumed branch begins with it is not known whether it is one.
+    const bool may_be_special = branch_.points.empty() || branch_.points.back().type != PointType::regular;
     const bool may_turn = ends_near_turn(stepper_.step());
-    if (!may_turn && !is_past_special && !ends_near_zero(stepper_, watch_)) return true;
+    if (!may_turn && !may_be_special && !ends_near_zero(stepper_, watch_)) return true;
     // What lies on the end is behind it by the last digit or before it, and no further step would tell it.
     constexpr double most_of_it = 0.9;
     const double behind = distance + most_of_it * options_.tolerances.same_value;

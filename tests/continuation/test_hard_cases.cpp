@@ -123,6 +123,24 @@ TEST_CASE("A corner that another branch leaves is passed, and found as a branch 
   }
 }
 
+TEST_CASE("Branches that all but cross are kept apart, whatever the steps are") {
+  // u^2 = (p - 0.4137)^2 + gap^2 differs from two lines that cross by the gap squared, in units of 0.4137
+  // squared.
+  const double gap = std::pow(10, GENERATE(range(-4.9, -2.9, 0.1)));
+  const double max_step = GENERATE(0.01, 0.03, 0.1, 0.3);
+  CAPTURE(gap, max_step);
+  const auto way = [](const Vector& p) { return p(0) - 0.4137; };
+  const ScalarProblem problem(
+      {"p"}, [=](double u, const Vector& p) { return u * u - way(p) * way(p) - gap * gap; },
+      [](double u, const Vector&) { return 2 * u; }, {[=](double, const Vector& p) { return -2 * way(p); }});
+  TraceOptions options = over("p", 0, 1);
+  options.max_step = max_step;
+  const Branch branch = trace(problem, {vector_of({0.4137}), vector_of({0})}, options);
+  CHECK(branch.complete());
+  CHECK(of_type(branch, PointType::branch_point).empty());
+  CHECK_THAT(branch.points.back().unknowns(0), WithinRel(std::hypot(1 - 0.4137, gap), 1e-9));
+}
+
 TEST_CASE("A special point at the very end value is found, and the branch ends there") {
   SECTION("a fold") {
     const ScalarProblem problem = graph([](double x) { return 1 - x * x; }, [](double x) { return -2 * x; });
