@@ -123,4 +123,5 @@ KINDS = {
     "optimum corner": ("corner", "o", 3.0, False),
     "optimum flat": ("flat", "s", 3.2, True),
     "optimum end": ("end of the range", "x", 3.4, False),
+    "optimum jump": ("beside a jump", ">", 3.4, True),
 }

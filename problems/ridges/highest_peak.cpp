@@ -19,6 +19,7 @@ constexpr double level_slope = 1e-9;   // dM/dx of a smooth minimum, as exact as
 constexpr double same_height = 1e-10;  // of peaks, the tolerance of responses
 constexpr double rounding = 1e-12;     // of L
 constexpr double narrow = 1e-11;       // in x: what is left of a minimum on a corner
+constexpr double beside_jump = 1e-7;   // in x: so near to where parts of a response meet they are told apart
 
 /// The zero of a function that is positive at `low` and negative at `high`.
 template <class Function>
@@ -223,6 +224,7 @@ void HighestPeak::settle(Lowest& lowest) {
   }
   int slow = 0;
   while (high - low > narrow) {
+    if (high - low <= beside_jump && jumps(sample(low), sample(high))) break;
     const double width = high - low;
     const double x = add(slow % 4 == 3 ? 0.5 * (low + high) : next_place(position(low), slow % 4 == 2)).x;
     if (is_settled(x)) return;
@@ -238,6 +240,11 @@ void HighestPeak::settle_corner(double low, double high, Lowest& lowest) const {
   const PeakSample& from = sample(low);
   const PeakSample& to = sample(high);
   constexpr double unlike = 1e-5;  // of slopes, as that of a peak close beside a corner
+  if (jumps(from, to)) {
+    const PeakSample& lower = to.highest().log_height < from.highest().log_height ? to : from;
+    lowest = {OptimumKind::jump, lower.x, lower.top, std::nullopt, 0, 0};
+    return;
+  }
   const PeakInterval between = interval(position(low));
   lowest = {OptimumKind::corner, low, from.top, std::nullopt, 0, 0};
   if (to.highest().slope - from.highest().slope <= unlike) {
@@ -298,11 +305,12 @@ bool HighestPeak::settle_flat(Lowest& lowest) {
   return true;
 }
 
-/// Whether the response there was looked at whole, and those on both sides of what seems a corner, which a
-/// peak that was not followed may have made; from now on they are.
+/// Whether the response there was looked at whole, and those on both sides of what seems a corner or a jump,
+/// which a peak that was not followed may have made; from now on they are.
 bool HighestPeak::is_confirmed(const Lowest& lowest) {
   const std::size_t at = position(lowest.x);
-  const std::size_t beside = lowest.kind == OptimumKind::corner ? 1 : 0;
+  const bool is_of_two = lowest.kind == OptimumKind::corner || lowest.kind == OptimumKind::jump;
+  const std::size_t beside = is_of_two ? 1 : 0;
   bool all = true;
   for (std::size_t i = at - std::min(at, beside); i <= std::min(at + beside, samples_.size() - 1); ++i) {
     PeakSample& known = samples_[i];

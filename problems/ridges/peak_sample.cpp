@@ -102,6 +102,14 @@ bool is_between(const ResponsePeak& found, const ResponsePeak& a, const Response
 
 }  // namespace
 
+bool jumps(const PeakSample& from, const PeakSample& to) {
+  constexpr double least = 1e-4;
+  constexpr double far_more = 100;
+  const double change = std::abs(to.highest().log_height - from.highest().log_height);
+  const double slopes = std::abs(from.highest().slope) + std::abs(to.highest().slope);
+  return change > std::max(least, far_more * slopes * std::abs(to.x - from.x));
+}
+
 std::optional<PeakSample> followed_peaks(ResponsePeaks& responses, const PeakSample& below,
                                          const PeakSample& above, double x, double value) {
   const double distance = above.x - below.x;

@@ -266,7 +266,7 @@ std::string_view to_string(PeakType type) {
 }
 
 std::string_view to_string(OptimumKind kind) {
-  return name_of(std::array<std::string_view, 5>{"smooth", "exchange", "corner", "flat", "end"},
+  return name_of(std::array<std::string_view, 6>{"smooth", "exchange", "corner", "flat", "end", "jump"},
                  static_cast<int>(kind));
 }
 

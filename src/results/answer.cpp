@@ -101,6 +101,7 @@ std::string main_sentence(const BestPreload& best, const Units& units) {
 std::string kind_sentence(const BestPreload& best) {
   if (best.kind == "exchange") return "There two peaks are as high as each other.";
   if (best.kind == "corner") return "There the highest peak changes between stick and slip, with a kink.";
+  if (best.kind == "jump") return "It lies beside a jump, behind which the response has a higher peak.";
   if (best.kind == "flat") return "The highest peak is the same over a range of preloads about it.";
   if (best.kind == "end") return "It is an end of the range of preloads: beyond it may lie a better one.";
   return "";

@@ -46,6 +46,9 @@ TEST_CASE("A nondimensional study answers in P, eta and the quantity that it low
             "There two peaks are as high as each other.",
             "The highest peak is within a factor 2 of that from P = 0.1 to 2, from the low end of the range "
             "on."});
+  best.kind = "jump";
+  CHECK(study_answer(nondimensional(best))[1] ==
+        "It lies beside a jump, behind which the response has a higher peak.");
   best.ratio = std::nan("");
   Findings of_damper{"", "U", {best}};
   CHECK(first_line(of_damper) == "Best preload P = 0.84: highest peak U = 0.002089 at eta = 4.6289.");

@@ -26,6 +26,10 @@ struct PeakSample {
 /// ridges cannot change places.
 std::vector<std::pair<std::size_t, std::size_t>> joined_peaks(const PeakSample& a, const PeakSample& b);
 
+/// Whether the highest peak jumps between two samples: its height changes by far more than the slopes at both
+/// make of their distance.
+bool jumps(const PeakSample& from, const PeakSample& to);
+
 /// The peaks at b, with x = ln b between two samples, that go on from one to the other, without tracing the
 /// response; none where one that may be the highest between them does not, or is not found.
 std::optional<PeakSample> followed_peaks(ResponsePeaks& responses, const PeakSample& below,

@@ -80,7 +80,8 @@ enum class OptimumKind {
   exchange,  ///< two peaks of equal height change places
   corner,    ///< the highest peak changes its site, with a kink of Y_max
   flat,      ///< Y_max is the same over a range of preloads: the middle of it, on the scale of ln P
-  end        ///< Y_max is lowest at an end of the range
+  end,       ///< Y_max is lowest at an end of the range
+  jump       ///< beside it the response has a higher peak, with a part that does not belong to it there
 };
 
 /// As written to files: its name.
