@@ -57,6 +57,7 @@ class PicturesOfStudy:
     def __init__(self, folder, case, options, measure):
         self.folder, self.options, self.measure = folder, options, measure
         self.designs = Designs(folder)
+        self.objective = words.symbol(case["study"].get("objective", "Y"))
         self.has_sweep = case["study"]["sweep"] and self.designs.count <= MOST_CURVES
 
     def pictures(self):
@@ -66,7 +67,7 @@ class PicturesOfStudy:
             all_pictures = {"ratio": lambda: self._over_preload("ratio"), "peaks": lambda: self._over_preload("peaks")}
         if designs.is_grid():
             all_pictures["optimum_preload"] = lambda: self._map(self._preload())
-            all_pictures["attenuation"] = lambda: self._map("ratio_opt")
+            all_pictures["attenuation"] = lambda: self._map(self._height(designs.table, "ratio_opt", "Y_opt")[0])
         elif designs.is_numeric and designs.keys and (len(designs.keys) == 1 or designs.rises_or_falls()):
             all_pictures["optimum"] = self._optimum
         if os.path.exists(os.path.join(self.folder, "quantiles.csv")):
@@ -86,6 +87,12 @@ class PicturesOfStudy:
 
     def _preload(self):
         return self.designs.table.preload("P_opt")
+
+    def _height(self, table, over_free, alone):
+        """The column of heights over that of the free base, or alone where that has none, and their symbol."""
+        if alone not in table.columns or np.isfinite(table.read([over_free])[0]).any():
+            return over_free, words.SYMBOLS[over_free][0]
+        return alone, self.objective
 
     def _best_title(self, column):
         return words.axis_title("P_opt") if column == "P_opt" else f"best preload  ({words.unit_of(column)[1]})"
@@ -118,7 +125,9 @@ class PicturesOfStudy:
         x = table.preload()
         eta = "frequency_Hz" if "frequency_Hz" in table.columns else "eta_peak"
         mode = "envelope" if name == "ratio" else "peaks"
-        rows = [("ratio", HIGHEST)] if name == "ratio" else [("ratio", words.axis_title("ratio")), (eta, words.axis_title(eta))]
+        height, symbol = self._height(table, "ratio", "Y_max")
+        highest = HIGHEST if height == "ratio" else f"highest peak  {symbol}"
+        rows = [(height, highest)] if name == "ratio" else [(height, f"peaks  {symbol}"), (eta, words.axis_title(eta))]
         quantities = [Quantity(self._curves(table, x, y, mode, UNMARKED[name]), mode, title) for y, title in rows]
         return self._sheet(x, table.read([x])[0]).panels(quantities)
 
@@ -133,7 +142,8 @@ class PicturesOfStudy:
         rises = designs.rises_or_falls()
         marks = [kind for kind in style.KINDS if kind.startswith("optimum ")] if len(xs) <= 60 or not rises else []
         quantities = []
-        for name, title in [(column, self._best_title(column)), ("ratio_opt", HIGHEST)]:
+        height, symbol = self._height(designs.table, "ratio_opt", "Y_opt")
+        for name, title in [(column, self._best_title(column)), (height, f"highest peak  {symbol}")]:
             (ys,) = designs.table.read([name])
             special = {kind: np.flatnonzero(kinds == kind.partition(" ")[2]) for kind in marks}
             special = {kind: rows for kind, rows in special.items() if len(rows)}
@@ -150,9 +160,11 @@ class PicturesOfStudy:
         designs = self.designs
         keys = designs.keys
         z, kinds = designs.table.read([column, "kind"])
-        title = HIGHEST if column == "ratio_opt" else self._best_title(column)
-        z = np.where((kinds == "flat") & (column != "ratio_opt"), np.nan, z)
-        notes = ["no single best preload"] * bool(column != "ratio_opt" and (kinds == "flat").any())
+        is_preload = column == self._preload()
+        _, symbol = self._height(designs.table, "ratio_opt", "Y_opt")
+        title = self._best_title(column) if is_preload else f"highest peak  {symbol}"
+        z = np.where((kinds == "flat") & is_preload, np.nan, z)
+        notes = ["no single best preload"] * bool(is_preload and (kinds == "flat").any())
         notes += ["not found"] * bool((kinds == "failed").any())
         axes = [(designs.values[key], words.axis_title(key)) for key in keys]
         return draw_map(self.options, self.measure, axes, z, title, notes)

@@ -1,5 +1,6 @@
 """What pictures look like: told apart without colour, no text over another, the same bytes each time."""
 
+import csv
 import json
 import math
 import os
@@ -167,6 +168,24 @@ def test_preloads_that_are_forces_are_drawn_in_newtons(tmp_path):
     assert len(drawn) > 1
     for figure in drawn.values():
         assert "preload" in (told := " ".join(text for text, _ in texts_of(figure))) and "(N)" in told
+        check_layout(figure)
+
+
+def test_heights_stand_alone_where_the_free_base_has_none(tmp_path):
+    keys = ["study.from=0.1", "study.to=10", "study.for_each={ contact_stiffness = [0.4, 0.5, 0.6] }"]
+    run("spring_mass", tmp_path, *keys, command="study")
+    for table, column in (("sweep.csv", "ratio"), ("optimum.csv", "ratio_opt")):
+        with open(tmp_path / table, newline="") as file:
+            rows = list(csv.DictReader(file))
+        with open(tmp_path / table, "w", newline="") as file:
+            writer = csv.DictWriter(file, rows[0])
+            writer.writeheader()
+            writer.writerows({**row, column: "nan"} for row in rows)
+    drawn = figures_of(tmp_path)
+    assert {"ratio", "peaks", "optimum"} <= set(drawn)
+    for figure in drawn.values():
+        told = " ".join(text for text, _ in texts_of(figure))
+        assert "nothing to show" not in told and "ND" not in told and "$Y$" in told
         check_layout(figure)
 
 
