@@ -24,6 +24,7 @@ Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index
       monitors_(problem, corrector.parameter(), std::move(tracked)),
       prober_(corrector, monitors_, step_),
       crossings_(corrector, prober_, step_, tolerances),
+      one_curve_(corrector, prober_, step_),
       predictor_(corrector.size() + 1, problem.sparse()),
       aside_(corrector.make_point()) {
   step_.here = step_.there = aside_;
@@ -303,7 +304,13 @@ bool Stepper::finish(bool lands, double value) {
       return false;
     }
   }
-  return knows_crossings(corner);
+  if (!knows_crossings(corner)) return false;
+  constexpr double shortest = 1e-5;                              // of the largest step
+  const bool is_smooth = may_bend_ && !corner && !is_regular();  // and not made of derivatives
+  if (!is_smooth || step_.chord.norm() < shortest * max_step_ || one_curve_.joins(predictor_.parabola()))
+    return true;
+  signals_.mismatch = limits_.mismatch_limit * 2 * max_step_;
+  return false;
 }
 
 /// Whether the step has no branch points but those that are found in it, be they at a corner.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "arcslip/continuation/events/crossing.hpp"
+#include "arcslip/continuation/path/one_curve.hpp"
 #include "arcslip/continuation/path/predictor.hpp"
 #include "arcslip/continuation/path/step_control.hpp"
 
@@ -146,6 +147,7 @@ class Stepper {
   Monitors monitors_;
   Prober prober_;
   CrossingSearch crossings_;
+  OneCurve one_curve_;
   Predictor predictor_;
   std::function<bool(const CurvePoint&)> meets_;
   std::vector<Monitor> at_here_;
