@@ -1,5 +1,7 @@
 // The quantities of whole rings among those of harmonic problems.
 
+#include <algorithm>
+
 #include "harmonic_observation.hpp"
 
 namespace arcslip::problems {
@@ -60,10 +62,15 @@ double HarmonicProblem::Observation::of_wave(const Quantity& quantity) {
   return std::abs(sum);
 }
 
+/// Of the contacts that there are.
 double HarmonicProblem::Observation::slipping() const {
   double count = 0;
-  for (Index i = 0; i < problem_.contacts(); ++i) count += slips(regime_, i) ? 1 : 0;
-  return count / static_cast<double>(problem_.contacts());
+  double all = 0;
+  for (Index i = 0; i < problem_.contacts(); ++i) {
+    count += slips(regime_, i) ? 1 : 0;
+    all += system_.contacts[at(i)].stiffness > 0 ? 1 : 0;
+  }
+  return count / std::max(1.0, all);
 }
 
 /// Of all contacts, in each of the load's periods.

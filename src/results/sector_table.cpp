@@ -28,12 +28,14 @@ void add_rows(const HarmonicResponse& problem, const continuation::BranchPoint& 
       const Complex r = motions.relative(j, i);
       const Complex y = motions.base(j, i);
       const Complex u = motions.damper(j, i);
-      const double threshold = problem.slip_threshold(i * each + j, point.parameters);
+      const Index contact = i * each + j;
+      const bool rubs = problem.system().contacts[static_cast<std::size_t>(contact)].stiffness > 0;
+      const double threshold = rubs ? problem.slip_threshold(contact, point.parameters) : std::nan("");
+      const char* const state = !rubs ? "none" : point.regime[contact] != 0 ? "slip" : "stick";
       fmt::format_to(std::back_inserter(text),
                      "{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", begin, i + 1,
-                     j + 1, point.regime[i * each + j] != 0 ? "slip" : "stick", std::abs(r),
-                     std::abs(r) / threshold, std::abs(y), std::abs(u), problems::lag(y), problems::lag(u),
-                     problems::lag(r));
+                     j + 1, state, std::abs(r), std::abs(r) / threshold, std::abs(y), std::abs(u),
+                     problems::lag(y), problems::lag(u), problems::lag(r));
       for (Index k = 0; k < motions.outputs.rows(); ++k)
         fmt::format_to(std::back_inserter(text), ",{:.17g}", std::abs(motions.outputs(k, i)));
       text += "\n";

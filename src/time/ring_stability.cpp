@@ -6,6 +6,19 @@
 #include "arcslip/structure/spectrum.hpp"
 
 namespace arcslip {
+namespace {
+
+/// Whether what a family remembers at this place stays what it is at all nodes, but for the turn: part of an
+/// element may hold while the rest of it slips.
+bool stays(const Matrix& derivative, Index first, Index count) {
+  for (Index i = first; i < first + count; ++i) {
+    const auto row = derivative.row(i);
+    if ((row.array() != 0).count() != 1 || row.segment(first, count).maxCoeff() != 1) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 double RingStability::growth() const { return std::pow(std::abs(turned(0)), periods); }
 
@@ -25,8 +38,11 @@ RingStability floquet_stability(RingMotion& motion, const RingState& state) {
   for (Index i = 0; i < 2 * coordinates; ++i) kept.push_back(i);
   for (std::size_t f = 0; f < here.moved.size(); ++f) {
     const RingMotion::Family& one = motion.families()[f];
-    const Index count = one.law->memories() * ring.nodes();
-    for (Index i = 0; here.moved[f] && i < count; ++i) kept.push_back(2 * coordinates + one.memory + i);
+    for (Index j = 0; here.moved[f] && j < one.law->memories(); ++j) {
+      const Index first = 2 * coordinates + one.memory + j * ring.nodes();
+      if (stays(here.derivative, first, ring.nodes())) continue;
+      for (Index i = 0; i < ring.nodes(); ++i) kept.push_back(first + i);
+    }
   }
   const Matrix derivative = here.derivative(kept, kept);
   const Matrix drifts = neutral_drifts(motion, true, here.moved)(kept, Eigen::all);

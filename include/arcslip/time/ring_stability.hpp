@@ -20,10 +20,11 @@
 // no more.
 //
 // What says nothing of stability is left out: the multipliers of neutral drifts, and the memory of elements
-// that never change their phase, which then are constants of the motion. Memory that the phase at the start
-// does not need is no free state; it and what other elements forget give multipliers 0. Where no contact
-// slips and the damper is free, a pair of |mu| = 1 remains: base against damper as rigid bodies on the
-// springs of the contacts, which no damping proportional to stiffness reaches. For n = 0, nu = mu.
+// that never change their phase, or that none of their changes touch, which then are constants of the motion.
+// Memory that the phase at the start does not need is no free state; it and what other elements forget give
+// multipliers 0. Where no contact slips and the damper is free, a pair of |mu| = 1 remains: base against
+// damper as rigid bodies on the springs of the contacts, which no damping proportional to stiffness reaches.
+// For n = 0, nu = mu.
 
 #include "arcslip/time/ring_response.hpp"
 

@@ -4,6 +4,7 @@
 // all its nodes in time, so that a branch says itself how far it can be trusted.
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -48,9 +49,10 @@ struct Verification {
 
 /// Which points are solved anew, and by what means.
 struct VerifyOptions {
-  std::size_t samples = 10;       ///< regular points, spread over the branch, besides the special ones
-  std::size_t most_special = 30;  ///< special points, the first ones; only these are integrated in time
-  bool in_time = true;            ///< whether to integrate in time, some seconds for a point of 30 nodes
+  std::size_t samples = 10;  ///< regular points, spread over the branch, besides the special ones
+  /// Special points, the first ones; only these are integrated in time.
+  std::size_t most_special = std::numeric_limits<std::size_t>::max();
+  bool in_time = true;  ///< whether to integrate in time, some seconds for a point of 30 nodes
 
   /// Called before each point with its number among those chosen and how many these are; false ends it.
   std::function<bool(std::size_t, std::size_t)> progress = {};
