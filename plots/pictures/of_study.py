@@ -10,7 +10,7 @@ from .curves import Curve
 from .draw import Quantity, Sheet
 from .maps import draw_map
 from .page import area_entry, line_entry
-from .tables import Refused, Table, unknown_column
+from .tables import Refused, Table, unknown_column, unknown_columns
 
 MOST_CURVES = 200  # in one picture: more cannot be told apart
 MOST_BANDS = 3
@@ -212,8 +212,7 @@ class PicturesOfStudy:
         tables = ([self._sweep_table()] if self.has_sweep else []) + [self.designs.table]
         table = next((table for table in tables if table.has(*names)), None)
         if table is None:
-            missing = next(name for name in names if not all(t.has(name) for t in tables))
-            raise unknown_column(missing, tables[0])
+            raise unknown_columns(names, tables)
         is_sweep = self.has_sweep and table is tables[0]
         x = options.x or ("P" if is_sweep else (self.designs.keys or ["P_opt"])[0])
         columns = options.y or ["ratio" if is_sweep else "ratio_opt"]

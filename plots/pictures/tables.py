@@ -158,7 +158,22 @@ def split_number(name):
     return (match[1], match[2] or match[3] or "") if match else (name, "")
 
 
+def columns_of(table):
+    """What can be drawn of a table."""
+    others = ("branch", "point", "type", "regime", "kind", "site")
+    return ", ".join(name for name in table.columns if name not in others)
+
+
 def unknown_column(name, table, problem="has no column of this name"):
     """What is said of a column that cannot be drawn."""
-    there = [column for column in table.columns if column not in ("branch", "point", "type", "regime", "kind", "site")]
-    return Refused(f"{name}: {table.path} {problem}; there are {', '.join(there)}")
+    return Refused(f"{name}: {table.path} {problem}; there are {columns_of(table)}")
+
+
+def unknown_columns(names, tables):
+    """The same of columns that no table has, or not all of."""
+    nowhere = [name for name in names if not any(table.has(name) for table in tables)]
+    if len(tables) == 1:
+        return unknown_column(nowhere[0], tables[0])
+    problem = "no table has a column of this name" if nowhere else "no table has all of these columns"
+    have = "; ".join(f"{table.path} has {columns_of(table)}" for table in tables)
+    return Refused(f"{nowhere[0] if nowhere else ', '.join(names)}: {problem}; {have}")

@@ -201,6 +201,7 @@ void Run::trace_request(std::size_t i, RunFiles& files, const std::string& folde
     if (options_.certify) certify_branch(one, files);
     if (options_.verify) verify_branch(one, files);
   }
+  if (interrupted() && complete_) return;  // traced, but its largest errors may not be known
   ended_ = i + 1;
   if (!interrupted() && std::none_of(traced.begin(), traced.end(), has_more))
     progress_.end(i, points_ - points_before);
