@@ -15,6 +15,7 @@ OneCurve::OneCurve(Corrector& corrector, Prober& prober, Step& step)
 bool OneCurve::joins(const Vector& foretold) {
   constexpr double far = 3;           // times the step before, by which the determinant tells nothing
   constexpr double unforeseen = 0.3;  // of the bend
+  constexpr double nothing = 1e-3;    // of the determinant, where slopes are not well known
   if (step_.past.empty() || !std::isfinite(step_.here.log_determinant)) return true;
   const PastPoint& past = step_.past.front();
   const double before = past.sign * step_.here.orientation * std::exp(past.log - step_.here.log_determinant);
@@ -27,7 +28,7 @@ bool OneCurve::joins(const Vector& foretold) {
   const CurvePoint& there = step_.there;
   end_.determinant = determinant(there.orientation, there.log_determinant);
   const bool is_elsewhere = (step_.chord - foretold).norm() > unforeseen * bend(begin_, end_);
-  if (!is_elsewhere && !is_uneven(begin_, end_)) return true;
+  if (std::abs(end_.determinant) < nothing || !(is_elsewhere || is_uneven(begin_, end_))) return true;
   // What follows begins with the same factors as if it had not been looked at.
   return joins(begin_, end_, rate, 0) &&
          corrector_.linearise(step_.there, step_.normal) == Correction::converged;
