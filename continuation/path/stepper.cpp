@@ -305,8 +305,8 @@ bool Stepper::finish(bool lands, double value) {
     }
   }
   if (!knows_crossings(corner)) return false;
-  constexpr double shortest = 1e-5;                              // of the largest step
-  const bool is_smooth = may_bend_ && !corner && !is_regular();  // and not made of derivatives
+  constexpr double shortest = 1e-5;                                        // of the largest step
+  const bool is_smooth = pairs_ && may_bend_ && !corner && !is_regular();  // not made of derivatives
   if (!is_smooth || step_.chord.norm() < shortest * max_step_ || one_curve_.joins(predictor_.parabola()))
     return true;
   signals_.mismatch = limits_.mismatch_limit * 2 * max_step_;
