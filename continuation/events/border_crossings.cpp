@@ -150,9 +150,10 @@ void search_borders(StepSearch& step) {
   }
   if (!reached) return;
   if (!stepper.prober().probe(upper)) return step.fail();
-  const double value = stepper.prober().probed().monitors[*reached].value;
-  if (std::abs(value) > together &&
-      (jumps(stepper, *reached, upper, value) || !stepper.prober().probe(upper)))
+  const Monitor border = stepper.prober().probed().monitors[*reached];
+  const double rounding = stepper.monitors().rounding(stepper.here(), border.slope);
+  if (std::abs(border.value) > std::max(together, rounding) &&
+      (jumps(stepper, *reached, upper, border.value) || !stepper.prober().probe(upper)))
     return step.fail();
   if (stepper.roughness(upper, stepper.prober().probed().monitors) > 1) step.fail();
 }

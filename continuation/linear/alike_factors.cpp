@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -13,6 +14,13 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr Index lanes = BlocksSideBySide::lanes;
+
+/// The largest size of these entries.
+double largest_of(const double* values, const std::vector<int>& entries) {
+  double largest = 0;
+  for (const int entry : entries) largest = std::max(largest, std::abs(values[entry]));
+  return largest;
+}
 
 /// Where an entry is among the values; -1 where the pattern lacks it.
 int place_in(const SparseMatrix& pattern, Index row, Index column) {
@@ -91,13 +99,14 @@ class AlikeFactors final : public SparseFactors {
     rest_.coeffs().setZero();
     for (const auto& [from, to] : kept_) rest[to] = values[from];
     double sign = orders_sign_;
+    const double staying = staying_ > 0 ? largest_of(values, staying_entries_) : 1;
     growth_ = 0;
     for (Index b = 0; b < std::ssize(batches_); ++b) {
       BlocksSideBySide& batch = batches_[static_cast<std::size_t>(b)];
       take(values, batch, b);
       if (!batch.scale_rows(row_scales_.col(b).data())) return 0;
       batch.eliminate();
-      growth_ = std::max(growth_, batch.largest());
+      growth_ = std::max({growth_, batch.largest(), batch.largest_multiple() / staying});
       for (Index lane = 0; lane < lanes_of(b); ++lane) sign *= batch.sign(lane);
       leave(batch, b);
     }
@@ -249,8 +258,14 @@ class AlikeFactors final : public SparseFactors {
       rest_factors_ = make_frontal_factors(rest_, staying_, std::numeric_limits<double>::infinity());
   }
 
-  /// Entries of other rows, and of those that stay in columns that are left.
+  /// Entries of other rows, and of those that stay in columns that are left; and which are of those that
+  /// stay.
   void find_kept(const SparseMatrix& pattern) {
+    for (Index column = 0; column < pattern.cols(); ++column) {
+      for (const int row : staying_rows_) {
+        if (const int entry = place_in(pattern, row, column); entry >= 0) staying_entries_.push_back(entry);
+      }
+    }
     Eigen::VectorX<int> row_of = places_of(other_rows_, pattern.rows());
     for (Index k = 0; k < staying_; ++k)
       row_of(staying_rows_(k)) = static_cast<int>(columns_.size() - staying_ + k);
@@ -348,6 +363,7 @@ class AlikeFactors final : public SparseFactors {
   SparseMatrix rest_;
   std::unique_ptr<SparseFactors> rest_factors_;
   double orders_sign_ = 1;
+  std::vector<int> staying_entries_;
   double growth_ = 0;
 };
 

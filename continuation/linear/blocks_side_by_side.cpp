@@ -79,6 +79,20 @@ ARCSLIP_WIDE double BlocksSideBySide::largest() const {
   return *std::max_element(largest, largest + lanes);
 }
 
+ARCSLIP_WIDE double BlocksSideBySide::largest_multiple() const {
+  double largest[lanes] = {};
+  for (Index k = 0; k < pivots_; ++k) {
+    const double* const column = at(0, k);
+    for (Index i = rows_ - staying_; i < rows_; ++i) {
+      for (Index l = 0; l < lanes; ++l) {
+        const double size = std::abs(column[i * lanes + l] * inverse(k)[l]);
+        largest[l] = size > largest[l] ? size : largest[l];
+      }
+    }
+  }
+  return *std::max_element(largest, largest + lanes);
+}
+
 ARCSLIP_WIDE void BlocksSideBySide::forward(double* y) const {
   double factor[lanes];
   for (Index k = 0; k < pivots_; ++k) {

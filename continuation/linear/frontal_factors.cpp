@@ -171,7 +171,7 @@ class FrontalFactors final : public SparseFactors {
     double* a = values_.data() + front.values;
     const std::ptrdiff_t stride = front.stride;
     double sign = 1;
-    double growth = growth_;
+    double growth = 0;
     for (int from = 0; from < front.pivots; from += panel) {
       const int to = std::min(from + panel, front.pivots);
       for (int k = from; k < to; ++k) sign *= take_pivot(front, k, to);
@@ -188,7 +188,7 @@ class FrontalFactors final : public SparseFactors {
         for (int k = from; k < to; ++k) growth = std::max(growth, std::abs(x[k]));
       }
     }
-    growth_ = growth;
+    growth_ = std::max(growth_, growth);
     return sign;
   }
 
@@ -207,6 +207,7 @@ class FrontalFactors final : public SparseFactors {
     for (int j = 0; j <= k; ++j) std::swap(a[j * stride + k], a[j * stride + best]);
     const double inverse = 1 / pivot;
     for (int i = k + 1; i < front.height; ++i) column[i] *= inverse;
+    for (int i = front.rows; i < front.height; ++i) growth_ = std::max(growth_, std::abs(column[i]));
     for (int j = k + 1; j < to; ++j) {
       double* x = a + j * stride;
       std::swap(x[k], x[best]);

@@ -17,7 +17,8 @@ namespace {
 // is the rule, lets entries grow so much that solutions along orbits with multipliers of 1e-30 lose all
 // digits. Where they grow even so, as near homoclinic orbits, none but the largest is taken.
 constexpr double least_pivot = 0.1;
-constexpr double most_growth = 1e3;  // with old pivots, over that when they were chosen
+constexpr double worst_growth = 1e9;  // of entries, of which refinement gives back the digits
+constexpr double most_growth = 1e3;   // with old pivots, over that when they were chosen
 constexpr double last_weight =
     1e-6;                        // of the largest entry of a row for the end where that of others is 1 to 2
 constexpr double most_fill = 2;  // over the least: pivots that fill more were a makeshift, which is not kept

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double dense_gain = 6;       // in multiplications a second, of fronts over single entries
 constexpr double little_growth = 1e3;  // of entries in fronts: these digits are not missed
+constexpr double most_lost = 1e12;     // of these, to which refinement gives back the digits
 constexpr double exact_enough = 1e-8;  // of a correction: its square is below rounding
 constexpr int most_refinements = 4;
 
@@ -124,7 +126,7 @@ double SparseBorderedSolver::factor() {
   if (plan_.dense == nullptr) return factor_by_entries();
   factors_ = plan_.dense.get();
   const double sign = plan_.dense->factor(plan_.matrix);
-  if (sign != 0 && plan_.dense->growth() < worst_growth) return sign;
+  if (sign != 0 && plan_.dense->growth() < most_lost) return sign;
   const double by_entries = factor_by_entries();
   if (sign == 0 || (by_entries != 0 && klu_->growth() < plan_.dense->growth())) return by_entries;
   factors_ = plan_.dense.get();
@@ -141,14 +143,21 @@ void SparseBorderedSolver::multiply_determinant(LogProduct& product) const {
   factors_->multiply_determinant(product);
 }
 
-/// Solves for right_hand_side_, into solution_. The corrections of a refinement shrink by one factor, so that
-/// the first tells whether it is enough.
+/// Solves for right_hand_side_, into solution_. Where dense factors are of no use, those of single entries
+/// take their place.
 void SparseBorderedSolver::solve_refined(bool transposed) {
+  if (!refine(transposed) && factors_ == plan_.dense.get() && factor_by_entries() != 0) refine(transposed);
+}
+
+/// The corrections of a refinement shrink by one factor, so that the first tells whether it is enough; where
+/// the factors lack many digits, it may be as large as what it corrects. False if corrections do not become
+/// small.
+bool SparseBorderedSolver::refine(bool transposed) {
   const auto solve_once = [&](Vector& x) { transposed ? factors_->solve_transposed(x) : factors_->solve(x); };
   solution_ = right_hand_side_;
   solve_once(solution_);
-  if (factors_ == plan_.dense.get() && factors_->growth() < little_growth) return;
-  double last = solution_.lpNorm<Eigen::Infinity>();
+  if (factors_ == plan_.dense.get() && factors_->growth() < little_growth) return true;
+  double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_refinements; ++i) {
     residual_ = right_hand_side_;
     if (transposed) {
@@ -158,11 +167,12 @@ void SparseBorderedSolver::solve_refined(bool transposed) {
     }
     solve_once(residual_);
     const double length = residual_.lpNorm<Eigen::Infinity>();
-    if (!(length < 0.5 * last)) return;
+    if (!(length < 0.5 * last)) break;
     solution_ += residual_;
-    if (length <= exact_enough * solution_.lpNorm<Eigen::Infinity>()) return;
+    if (length <= exact_enough * solution_.lpNorm<Eigen::Infinity>()) return true;
     last = length;
   }
+  return last < 0.5 * solution_.lpNorm<Eigen::Infinity>();
 }
 
 void SparseBorderedSolver::solve(Vector& right_hand_side) {

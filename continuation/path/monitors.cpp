@@ -1,5 +1,8 @@
 #include "arcslip/continuation/path/monitors.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 namespace arcslip::continuation {
@@ -54,6 +57,13 @@ double Monitors::border(const CurvePoint& point, int border, const Vector& scale
   gradient.head(n) = gradient_.unknowns.cwiseProduct(scale.head(n));
   gradient(n) = gradient_.parameters(parameter_) * scale(n);
   return value;
+}
+
+double Monitors::rounding(const CurvePoint& point, double slope) const {
+  const Index n = problem_.size();
+  const double largest = std::max(point.unknowns.cwiseQuotient(point.scale.head(n)).lpNorm<Eigen::Infinity>(),
+                                  std::abs(point.parameters(parameter_) / point.scale(n)));
+  return 2 * std::numeric_limits<double>::epsilon() * largest * std::abs(slope);
 }
 
 double Monitors::roughness(const Step& step, double s, const std::vector<Monitor>& at_s,

@@ -168,7 +168,9 @@ bool Stepper::pass_corner() {
     const double way = corrector_.orientation() == step_.here.orientation ? 1 : -1;
     step_.normal = way * corrector_.direction().normalized();
     if (step_.normal.dot(step_.here.tangent) > std::cos(unlike) ||
-        !finds(aside_, step_.normal, 2 * ahead, step_.here.orientation))
+        !finds(aside_, step_.normal, 2 * ahead, step_.here.orientation) ||
+        crossed_border(problem_, step_.there.unknowns, step_.there.parameters, step_.there.regime,
+                       tolerances_.both_sides) >= 0)
       continue;
     step_.here = step_.there;
     begin_piece(aside_);
@@ -372,9 +374,7 @@ void Stepper::settle_on_border(int border) {
     corrector_.difference(step_.there, aside_, work_);
     // No rounding is left: where the branch all but touches the border, a step onto it may lead anywhere.
     const bool far = !(work_.norm() <= tolerances_.settled && std::abs(work_(n)) <= tolerances_.last_bits);
-    if (result == Correction::converged && !far) continue;
-    std::swap(step_.there, aside_);
-    return;
+    if (result != Correction::converged || far) return std::swap(step_.there, aside_);
   }
 }
 

@@ -174,10 +174,7 @@ void Tracer::step() {
       continue;
     }
     if (options_.turns_at_corners && pass_corner()) return;
-    const Correction last = stepper_.last_correction();
-    return stop(last == Correction::cannot_evaluate ? Stop::no_value : Stop::min_step,
-                fmt::format("no step of at least min_step = {:g} is acceptable from {}: {}",
-                            options_.min_step, place(), reason(last)));
+    return stop_stepping();
   }
   take();
 }

@@ -117,6 +117,24 @@ void Tracer::stop_in_place() {
                     place()));
 }
 
+/// Where no step is acceptable: on a border that nothing leads beyond, but for rounding, to which a branch
+/// comes no nearer where its solutions are double there.
+void Tracer::stop_stepping() {
+  const CurvePoint& here = stepper_.here();
+  for (int border = 0; border < problem_.border_count(here.regime); ++border) {
+    const double value = problem_.border(here.unknowns, here.parameters, here.regime, border, nullptr);
+    if (!(std::abs(value) <= options_.tolerances.same_point) || problem_.regime_beyond(here.regime, border))
+      continue;
+    store(PointType::end);
+    return stop(Stop::left_regime,
+                fmt::format("the branch ends on the border of its regime but for rounding, at {}", place()));
+  }
+  const Correction last = stepper_.last_correction();
+  stop(last == Correction::cannot_evaluate ? Stop::no_value : Stop::min_step,
+       fmt::format("no step of at least min_step = {:g} is acceptable from {}: {}", options_.min_step,
+                   place(), reason(last)));
+}
+
 void Tracer::take_events(const Signs& before) {
   const CurvePoint& here = stepper_.here();
   const Passage passage{before, state_.signs, stepper_, watch_};

@@ -90,6 +90,16 @@ void check_level(const TomlSection& branch, const CaseBranch& first) {
   branch.text("level_of", names);
 }
 
+/// Refuses a stored point of another problem.
+void check_stored_point(const TomlSection& branch, const CaseBranch& first) {
+  if (!first.stored) return;
+  const Index expected = build(first.problem).problem->size();
+  const Index size = first.stored->unknowns.size();
+  if (size == expected) return;
+  branch.fail("from_point",
+              fmt::format("the point has {} in place of the problem's {} unknowns", size, expected));
+}
+
 /// Refuses what `for_each` or `eta` would set although it is continued, or not a parameter at all.
 void check_fixed(const TomlSection& branch, const ForEach& for_each, const std::vector<ListedKey>& listed,
                  const CaseBranch& common, const std::string& parameter) {
@@ -316,6 +326,7 @@ CaseBranch BranchSource::checked() const {
   CaseBranch first = branch(0);
   check_extrema(section_, first);
   check_level(section_, first);
+  check_stored_point(section_, first);
   check_replaced();
   return first;
 }

@@ -153,9 +153,8 @@ void begin_from(const CaseBranch& request, Subject& subject) {
   const StoredPoint& point = *request.stored;
   const continuation::Problem& problem = *subject.built.problem;
   if (point.unknowns.size() != problem.size())
-    throw InputError(
-        fmt::format("branch.from_point: expected a point of {} unknowns as this problem has, got {}",
-                    problem.size(), point.unknowns.size()));
+    throw InputError(fmt::format("branch.from_point: the point has {} in place of the problem's {} unknowns",
+                                 point.unknowns.size(), problem.size()));
   const std::vector<std::string> names = problem.parameter_names();
   continuation::Guess& guess = subject.guess;
   guess = {point.unknowns, Vector(std::ssize(names)), point.regime, {}};

@@ -168,7 +168,7 @@ class Builder {
     of_order.eta_low = parameters_.eta_low;  // the same modes as the ring has
     of_order.eta_high = parameters_.eta_high * highest_order(parameters_.harmonics) / parameters_.periods();
     const Index nodes = ring_.nodes();
-    const Index forward = of_order.wave_number % nodes;
+    const Index forward = (of_order.wave_number % nodes + nodes) % nodes;
     const Index wave = std::min(forward, nodes - forward);
     const bool backward = forward != wave;
     const ContactSystem system = turned(build_wave(of_order), parameters_.load_turn(order));
@@ -326,9 +326,10 @@ void add_elements(const Coordinates& coordinates, Ring& ring) {
 
 Matrix Ring::turned(const Matrix& columns) const {
   Matrix all(columns.rows(), columns.cols());
+  const double node = (wave_number < 0 ? -two_pi : two_pi) / static_cast<double>(nodes());
   for (Index c = 0; c < coordinates(); ++c) {
     const auto k = static_cast<std::size_t>(c);
-    const double angle = two_pi * static_cast<double>(wave[k]) / static_cast<double>(nodes());
+    const double angle = node * static_cast<double>(wave[k]);
     all.row(c) = std::cos(angle) * columns.row(c);
     if (beside[k] != c) all.row(c) += (beside[k] > c ? 1 : -1) * std::sin(angle) * columns.row(beside[k]);
   }
@@ -337,9 +338,15 @@ Matrix Ring::turned(const Matrix& columns) const {
 
 Matrix Ring::moved_back(const Matrix& rows) const {
   Matrix next(rows.rows(), rows.cols());
+  const Index most = nodes() - 1;
   for (Index first = 0; first < rows.rows(); first += nodes()) {
-    next.middleRows(first, nodes() - 1) = rows.middleRows(first + 1, nodes() - 1);
-    next.row(first + nodes() - 1) = rows.row(first);
+    if (wave_number < 0) {
+      next.row(first) = rows.row(first + most);
+      next.middleRows(first + 1, most) = rows.middleRows(first, most);
+    } else {
+      next.middleRows(first, most) = rows.middleRows(first + 1, most);
+      next.row(first + most) = rows.row(first);
+    }
   }
   return next;
 }

@@ -282,9 +282,10 @@ RingDisturbances::Disturbances RingDisturbances::at(double eta, std::span<const 
 
 Complex RingDisturbances::turned(const Disturbance& one, double eta) const {
   const double node = 2 * pi / static_cast<double>(waves_.nodes());
-  const Index turns = waves_.wave_number() == 0 ? waves_.nodes() : waves_.wave_number();
-  return std::exp(one.exponent * (node * static_cast<double>(turns) / eta) -
-                  Complex(0, node * static_cast<double>(one.wave)));
+  const Index n = waves_.wave_number();
+  const auto turns = static_cast<double>(n == 0 ? waves_.nodes() : std::abs(n));
+  const auto wave = static_cast<double>(n < 0 ? -one.wave : one.wave);
+  return std::exp(one.exponent * (node * turns / eta) - Complex(0, node * wave));
 }
 
 Index RingDisturbances::wave_of(const Disturbance& one, double eta,

@@ -197,6 +197,16 @@ Round nearer(RingMotion& motion, const NewtonStep& newton, const Round& here, co
   return round_of(motion, std::move(marched));
 }
 
+/// Each node does what the next one did, of n < 0 the one before.
+void turn(const Ring& ring, RingState& state) {
+  state.position = ring.turned(state.position);
+  state.velocity = ring.turned(state.velocity);
+  state.memory = ring.moved_back(state.memory);
+  const Index new_first = ring.wave_number < 0 ? ring.nodes() - 1 : 1;
+  for (auto first = state.phase.begin(); first != state.phase.end(); first += ring.nodes())
+    std::rotate(first, first + new_first, first + ring.nodes());
+}
+
 }  // namespace
 
 RingState next_state(RingMotion& motion, const RingState& state, RingObserver* observer) {
@@ -204,12 +214,7 @@ RingState next_state(RingMotion& motion, const RingState& state, RingObserver* o
   RingState next = state;
   motion.advance(next, motion.period() * ring.periods_of_turn(), observer);
   next.time = state.time;
-  if (ring.wave_number == 0) return next;
-  next.position = ring.turned(next.position);
-  next.velocity = ring.turned(next.velocity);
-  next.memory = ring.moved_back(next.memory);
-  for (auto first = next.phase.begin(); first != next.phase.end(); first += ring.nodes())
-    std::rotate(first, first + 1, first + ring.nodes());
+  if (ring.wave_number != 0) turn(ring, next);
   return next;
 }
 
@@ -226,11 +231,7 @@ StateDerivative next_derivative(RingMotion& motion, const RingState& state) {
     result.derivative = flow;
     return result;
   }
-  result.next.position = ring.turned(result.next.position);
-  result.next.velocity = ring.turned(result.next.velocity);
-  result.next.memory = ring.moved_back(result.next.memory);
-  for (auto first = result.next.phase.begin(); first != result.next.phase.end(); first += ring.nodes())
-    std::rotate(first, first + 1, first + ring.nodes());
+  turn(ring, result.next);
   result.derivative.resize(flow.rows(), flow.cols());
   result.derivative.topRows(coordinates) = ring.turned(flow.topRows(coordinates));
   result.derivative.middleRows(coordinates, coordinates) =

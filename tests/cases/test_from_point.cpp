@@ -1,5 +1,6 @@
 // Branches that begin from a point that a run has left.
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "case_texts.hpp"
@@ -90,4 +91,10 @@ TEST_CASE("Points that are none are refused with those that there are", "[from_p
       arcslip_program("run " + source_folder() + "/problems/enz.toml -o " + folder.path("o") +
                       " --set 'branch.from_point=\"" + folder.path("first") + ":0/0\"'");
   CHECK(other.status == 1);
+  const Outcome larger = arcslip_program("run " + path + " -o " + folder.path("o") +
+                                         " --set system.harmonics=3 --set 'branch.from_point=\"" +
+                                         folder.path("first") + ":0/0\"'");
+  CHECK(larger.status == 1);
+  CHECK_THAT(larger.err, ContainsSubstring("the point has 1 in place of the problem's 4 unknowns"));
+  CHECK_FALSE(std::filesystem::exists(folder.path("o")));
 }

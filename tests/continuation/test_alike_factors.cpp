@@ -1,8 +1,10 @@
 // Chains of blocks as orbits have them, eliminated side by side and two by two, against dense matrices.
 
 #include <Eigen/LU>
+#include <cmath>
 #include <random>
 
+#include "arcslip/continuation/linear/sparse_bordered_solver.hpp"
 #include "arcslip/continuation/linear/sparse_factors.hpp"
 #include "catch.hpp"
 
@@ -87,4 +89,43 @@ TEST_CASE("Chains of any length have the solutions and determinants of dense mat
 TEST_CASE("What grows and decays by decades along a chain loses no digits", "[sparse]") {
   std::mt19937 numbers(7);
   for (const double growth : {1e3, 1e-3, 1e6}) check_factors({34, 3, 1, 1, growth}, numbers, 1e-7);
+}
+
+TEST_CASE("Chains that grow to a tip and decay again are solved for to the last digits", "[sparse]") {
+  // What has no condition on its phase is solved by u, which is largest at the tip: where its node is
+  // eliminated nothing is left to pivot on but full rows.
+  const double decades = GENERATE(4.0, 8.0, 10.0, 12.0);
+  const int links = GENERATE(64, 100, 321);
+  std::mt19937 numbers(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const Index n = 2 * links + 1;  // values, the first and the last of which are one
+  const Index tip = links / 3;
+  constexpr double some = 1e-13;  // of an entry that the pattern has
+  Matrix all = Matrix::NullaryExpr(n + 2, n + 2, [&] { return any(numbers); });
+  all.topLeftCorner(n, n).setZero();
+  all(0, 0) = 1;
+  all(0, n - 1) = -1;
+  for (Index j = 0; j < links; ++j) {
+    const double growth =
+        j < tip ? decades / static_cast<double>(tip) : -decades / static_cast<double>(links - tip);
+    const double half = std::pow(10, growth / 2);
+    all.block(1 + 2 * j, 2 * j, 2, 3) << -half, 1, some, some, -half, 1;
+  }
+  const SparseMatrix jacobian = all.topLeftCorner(n + 1, n + 1).sparseView();
+  SparseBorderedSolver solver(n + 1, 1);
+  solver.set_jacobian(jacobian, Vector::Ones(n + 1));
+  solver.columns() = all.topRightCorner(n + 1, 1);
+  solver.rows() = all.bottomLeftCorner(1, n + 1);
+  solver.corner()(0, 0) = all(n + 1, n + 1);
+  const Eigen::FullPivLU<Matrix> dense(all);
+  CAPTURE(decades, links, dense.rcond());
+  CHECK(solver.factor() == (dense.determinant() > 0 ? 1 : -1));
+  const double exact = 1e-15 / dense.rcond();
+  const Vector wanted = Vector::NullaryExpr(n + 2, [&] { return any(numbers); });
+  Vector x = all * wanted;
+  solver.solve(x);
+  CHECK((x - wanted).lpNorm<Eigen::Infinity>() < exact);
+  x = all.transpose() * wanted;
+  solver.solve_transposed(x);
+  CHECK((x - wanted).lpNorm<Eigen::Infinity>() < exact);
 }

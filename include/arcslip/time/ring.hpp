@@ -19,6 +19,7 @@
 // Of modes of one frequency and damping, as rigid motions of base and damper, elements feel sum v v^H alone:
 // what moves no element is left out, and told apart where the load moves it.
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -84,15 +85,17 @@ struct Ring {
   /// N x D: relative motions u - y of the first contact.
   auto relative() const { return motion.topRows(node_count); }
 
-  /// n periods over N, in which each node comes to do what the one before it did; of n = 0 a period.
+  /// |n| periods over N, in which each node comes to do what the one before it did, of n < 0 the one behind
+  /// it; of n = 0 a period.
   double periods_of_turn() const {
-    return wave_number == 0 ? 1 : static_cast<double>(wave_number) / static_cast<double>(node_count);
+    return wave_number == 0 ? 1
+                            : std::abs(static_cast<double>(wave_number)) / static_cast<double>(node_count);
   }
 
   /// What the coordinates beside push with, columns of D rows; of a ring with `coupling`.
   Matrix coupled(const Matrix& columns) const { return coupling.asDiagonal() * columns(beside, Eigen::all); }
 
-  /// Columns of D rows, turned so that each node does what the next one did.
+  /// Columns of D rows, turned so that each node does what the next one did, of n < 0 the one before.
   Matrix turned(const Matrix& columns) const;
 
   /// Rows of N nodes for each of several quantities, moved likewise.

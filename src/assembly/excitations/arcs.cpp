@@ -10,7 +10,8 @@ namespace arcslip {
 
 ExcitationKind arcs_excitation() {
   return {"arcs",
-          "even pressure on travelling arcs, one that pushes and one that pulls in each wavelength",
+          "even pressure on travelling arcs, one that pushes and one that pulls in each wavelength; F is the "
+          "amplitude of the first harmonic",
           {{"width", 0.5, 0, 0.5, false, "w of an arc, over the wavelength; 0.5 is a square wave", false}},
           {},
           [](const Excitation& load, int h) -> Complex {

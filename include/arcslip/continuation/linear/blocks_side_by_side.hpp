@@ -94,6 +94,9 @@ class BlocksSideBySide {
   /// The largest entry that the elimination has left in the rows of pivots.
   double largest() const;
 
+  /// The largest multiple of a row of pivots that the elimination has subtracted from a row that stays.
+  double largest_multiple() const;
+
  private:
   void exchange(Index k);
 

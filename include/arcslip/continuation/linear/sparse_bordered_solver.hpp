@@ -12,14 +12,14 @@ namespace arcslip::continuation {
 /// The matrix is assembled whole. It is ordered once, for as long as J keeps its pattern, by approximate
 /// minimum degree of J with the borders last and full rows of J before them, since one of these taken as a
 /// pivot earlier would fill the factors. To keep them last their entries count for 1e-6 of the others' in the
-/// search for pivots: that is enough for a J singular to within rounding, and one step of iterative
-/// refinement, at 4 % of a factorisation of 10^5 unknowns, gives back the digits that the smaller pivots
+/// search for pivots: that is enough for a J singular to within rounding, and iterative refinement, a step
+/// of which takes 4 % of a factorisation of 10^5 unknowns, gives back the digits that the smaller pivots
 /// cost.
 ///
 /// Small blocks that are alike are eliminated first, side by side, and what they leave by fronts. Without
 /// such, fronts are used where they cost no more than six times the multiplications of KLU's order; where
-/// entries grow too much there, KLU takes over. Nothing is allocated in fronts, and by KLU where the pivots
-/// of its last factorisation still serve.
+/// more digits are lost there than refinement gives back, KLU takes over. Nothing is allocated in fronts, and
+/// by KLU where the pivots of its last factorisation still serve.
 class SparseBorderedSolver final : public BorderedSolver {
  public:
   /// For n = `size` unknowns; neither number may be negative.
@@ -47,6 +47,7 @@ class SparseBorderedSolver final : public BorderedSolver {
   double factor_by_entries();
   void find_last_rows(const SparseMatrix& jacobian);
   void solve_refined(bool transposed);
+  bool refine(bool transposed);
 
   /// What the pattern alone tells, and room for values.
   struct Plan {

@@ -11,8 +11,6 @@
 
 namespace arcslip::continuation {
 
-constexpr double worst_growth = 1e9;  ///< of entries in an elimination: refinement gives back these digits
-
 /// Factors of square matrices of one pattern, whose columns are in scale; rows are scaled for the choice of
 /// pivots. The borders' rows, the last ones, are kept for the end.
 class SparseFactors {
@@ -26,7 +24,8 @@ class SparseFactors {
   /// By the size of the determinant.
   virtual void multiply_determinant(LogProduct& product) const = 0;
 
-  /// To how much entries of about 1 in each row grew in the elimination: solutions lose as many digits.
+  /// To how much entries of about 1 in each row grew in the elimination, or by how much its rows were
+  /// multiplied before they were subtracted from rows for the end: solutions lose as many digits.
   virtual double growth() const = 0;
 
   /// What was left of blocks; null where there are none.

@@ -23,6 +23,9 @@ class Monitors {
   /// A border's value at a point, with its gradient in units of the scale.
   double border(const CurvePoint& point, int border, const Vector& scale, Vector& gradient);
 
+  /// By how much the last bits of a point change what has this slope there.
+  double rounding(const CurvePoint& point, double slope) const;
+
   /// The observables whose extrema are looked for, and their number.
   const std::vector<Index>& tracked() const { return tracked_; }
   Index tracked_count() const { return static_cast<Index>(tracked_.size()); }

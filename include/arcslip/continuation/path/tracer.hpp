@@ -71,6 +71,7 @@ class Tracer {
   void take();
   void take_events(const Signs& before);
   void stop_in_place();
+  void stop_stepping();
   void take_targets_around(bool turns);
   void take_target(const Target& target);
   void store_turn();
